@@ -74,6 +74,12 @@ struct TableReading {
   const T& payload() const {
     return *static_cast<const T*>(sample.payload);
   }
+  /// Values of the truth by their name; null where there are not so many.
+  const std::vector<double>* true_values(const char* name, std::uint64_t count) const {
+    if (truth == nullptr) return nullptr;
+    const auto found = truth->values.find(name);
+    return found != truth->values.end() && found->second.size() == count ? &found->second : nullptr;
+  }
   const log::LandmarkId* identity(std::uint64_t i) const {
     return identities.empty() ? nullptr : &identities[i];
   }
@@ -109,6 +115,7 @@ const std::vector<double>* true_ranges_of(const TableReading& reading, std::uint
 
 void add_scan(log::RowFile& file, const TableReading& reading) {
   const auto& scan = reading.payload<hw_range_scan_t>();
+  const std::vector<double>* labels = reading.true_values("label", scan.count);
   const std::uint64_t in_layer = scan.layers > 0 ? scan.count / scan.layers : scan.count;
   const std::vector<double>* true_ranges = true_ranges_of(reading, in_layer);
   for (std::uint64_t i = 0; i < scan.count; ++i) {
@@ -124,6 +131,12 @@ void add_scan(log::RowFile& file, const TableReading& reading) {
     } else {
       const double range_m = (*true_ranges)[i % in_layer];
       row.number(range_m < 0.0 ? std::numeric_limits<double>::infinity() : range_m);
+    }
+    const bool has_label = labels != nullptr && (*labels)[i] >= 0.0;
+    if (has_label) {
+      row.whole(static_cast<std::uint64_t>((*labels)[i]));
+    } else {
+      row.none();
     }
   }
 }
@@ -175,12 +188,7 @@ void add_imu(log::RowFile& file, const TableReading& reading) {
   row.whole(reading.sample.sequence).whole(reading.sample.t_begin_ns).whole(reading.sample.t_end_ns);
   row.numbers(imu.angular_rad_s).numbers(imu.force_m_s2);
   for (const char* name : {"angular_rad_s", "force_m_s2", "angular_bias_rad_s", "force_bias_m_s2"}) {
-    const std::vector<double>* values = nullptr;
-    if (reading.truth != nullptr) {
-      const auto found = reading.truth->values.find(name);
-      if (found != reading.truth->values.end() && found->second.size() == 3) values = &found->second;
-    }
-    if (values != nullptr) {
+    if (const std::vector<double>* values = reading.true_values(name, 3)) {
       row.numbers(*values);
     } else {
       row.none(3);
@@ -210,7 +218,8 @@ const std::map<std::uint32_t, ElementTable>& element_tables() {
         "x3_m,y3_m,z3_m,rms_m,true_plane",
         add_planes}},
       {HW_SAMPLE_RANGE_SCAN,
-       {"sequence,t_ns,ring,azimuth_rad,elevation_rad,range_m,intensity,layer,true_range_m", add_scan}},
+       {"sequence,t_ns,ring,azimuth_rad,elevation_rad,range_m,intensity,layer,true_range_m,true_label",
+        add_scan}},
       {HW_SAMPLE_BUMP, {"sequence,t_ns,zone,pressed,depth_m,dx,dy,dz", add_bump}},
       {HW_SAMPLE_ENCODER, {"sequence,t_ns,wheel,ticks", add_ticks}},
       {HW_SAMPLE_ODOMETRY,
@@ -281,6 +290,24 @@ void write_sensor_list(const std::filesystem::path& path, const std::vector<host
   file.close();
 }
 
+/// A text as a field of a table, in quotes as RFC 4180 has them.
+std::string in_quotes(std::string_view text) {
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + "\"";
+}
+
+void write_labels(const std::filesystem::path& path, const std::vector<log::SurfaceLabel>& labels) {
+  log::RowFile file(path, ',', "id,thing,material,mover");
+  for (const log::SurfaceLabel& label : labels)
+    Cells(file.next_row())
+        .whole(label.id)
+        .text(in_quotes(label.thing))
+        .text(in_quotes(label.material))
+        .text(in_quotes(label.mover));
+  file.close();
+}
+
 }  // namespace
 
 void write_tables(OpenedLog& opened, const std::string& sensor, const std::filesystem::path& folder,
@@ -289,8 +316,9 @@ void write_tables(OpenedLog& opened, const std::string& sensor, const std::files
   std::vector<host::SensorInfo> chosen = source.sensors();
   if (!sensor.empty()) chosen = {find_named_sensor(source.sensors(), sensor)};
   write_sensor_list(folder / "sensors.csv", chosen);
+  if (!source.facts().labels.empty()) write_labels(folder / "labels.csv", source.facts().labels);
   std::map<std::uint32_t, SensorTables> tables;
-  std::set<std::string> taken{"frames", "sensors"};
+  std::set<std::string> taken{"frames", "sensors", "labels"};
   for (const host::SensorInfo& info : chosen) {
     std::string stem = plain_name(info.name);
     if (taken.contains(stem) || taken.contains(stem + "_readings")) stem += fmt::format("_{}", info.id);

@@ -20,6 +20,7 @@
 #include "log/plane_observations.hpp"
 #include "log/pose_covariances.hpp"
 #include "log/poses.hpp"
+#include "log/surface_label.hpp"
 #include "log/true_planes.hpp"
 
 namespace hallway::log {
@@ -36,6 +37,7 @@ inline constexpr std::string_view kIdentities = "/hallway/truth/identities";    
 inline constexpr std::string_view kSampleTruth = "/hallway/truth/sample";       ///< of one sample
 inline constexpr std::string_view kTrueLandmarks = "/hallway/truth/landmarks";  ///< world
 inline constexpr std::string_view kTruePlanes = plane_names::kTruePlanesTopic;  ///< world
+inline constexpr std::string_view kLabels = "/hallway/truth/labels";            ///< of the returns of lidars
 inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
 inline constexpr std::string_view kAssociations = "/hallway/output/associations";
 inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< how to drive
@@ -103,6 +105,7 @@ class RunLogWriter {
   void add_activation(const std::string& json);
   void add_true_landmarks(std::span<const Landmark> landmarks);
   void add_true_planes(std::span<const TruePlane> planes);
+  void add_labels(std::span<const SurfaceLabel> labels);
   /// A frame in the form of host/samples/frame_bytes.hpp.
   void add_frame(const FrameStamp& stamp, std::string_view bytes);
   void add_true_pose(const FrameStamp& stamp, const IterationPose& pose);
@@ -162,10 +165,10 @@ struct CommandMessage {
   CommandAnswer command;
 };
 
-/// What replay needs of a log, with the true pose of a frame, and the true landmarks and planes of the world; std::monostate for all else.
-using RunMessage =
-    std::variant<std::monostate, FrameMessage, ActivationMessage, IterationPose, IdentitiesMessage,
-                 std::vector<Landmark>, std::vector<TruePlane>, CommandMessage, SampleTruthMessage>;
+/// What replay needs of a log, with the true pose of a frame, the true landmarks and planes of the world, and the labels of its surfaces; std::monostate for all else.
+using RunMessage = std::variant<std::monostate, FrameMessage, ActivationMessage, IterationPose,
+                                IdentitiesMessage, std::vector<Landmark>, std::vector<TruePlane>,
+                                std::vector<SurfaceLabel>, CommandMessage, SampleTruthMessage>;
 
 /// What a message says, by its channel's topic. Throws Error{kBadInput} with the cause if it is not what the topic
 /// promises.

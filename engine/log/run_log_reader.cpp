@@ -123,6 +123,19 @@ std::vector<TruePlane> true_planes(const Json& json) {
   return planes;
 }
 
+std::vector<SurfaceLabel> surface_labels(const Json& json) {
+  std::vector<SurfaceLabel> labels;
+  std::unordered_set<std::uint64_t> seen;
+  for (const Json& entry : json.at("labels")) {
+    labels.push_back({.id = whole(entry.at("id"), std::numeric_limits<std::uint32_t>::max()),
+                      .thing = entry.at("thing").get<std::string>(),
+                      .material = entry.at("material").get<std::string>(),
+                      .mover = entry.at("mover").get<std::string>()});
+    if (!seen.insert(labels.back().id).second) bad("a label that stands there twice");
+  }
+  return labels;
+}
+
 PoseMessage pose_answer(const Json& json) {
   PoseMessage message{.iteration = iteration_of(json), .pose = {}};
   const std::string status = json.at("status").get<std::string>();
@@ -208,6 +221,7 @@ RunMessage parse(std::string_view topic, std::string_view data) {
   if (topic == topics::kSampleTruth) return sample_truth(parse_json(data));
   if (topic == topics::kTrueLandmarks) return true_landmarks(parse_json(data));
   if (topic == topics::kTruePlanes) return true_planes(parse_json(data));
+  if (topic == topics::kLabels) return surface_labels(parse_json(data));
   return {};
 }
 
@@ -291,7 +305,8 @@ auto parse_message(const McapChannel& channel, const McapMessage& message, Parse
 }  // namespace
 
 bool is_of_whole_log(std::string_view topic) {
-  return topic == topics::kActivation || topic == topics::kTrueLandmarks || topic == topics::kTruePlanes;
+  return topic == topics::kActivation || topic == topics::kTrueLandmarks || topic == topics::kTruePlanes ||
+         topic == topics::kLabels;
 }
 
 RunMessage parse_run_message(const McapChannel& channel, const McapMessage& message) {

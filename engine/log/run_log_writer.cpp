@@ -151,6 +151,14 @@ void RunLogWriter::add_true_planes(std::span<const TruePlane> planes) {
   add(topics::kTruePlanes, {}, text_of({{plane_names::kTruePlanesKey, list}}));
 }
 
+void RunLogWriter::add_labels(std::span<const SurfaceLabel> labels) {
+  Json list = Json::array();
+  for (const SurfaceLabel& label : labels)
+    list.push_back(
+        {{"id", label.id}, {"thing", label.thing}, {"material", label.material}, {"mover", label.mover}});
+  add(topics::kLabels, {}, text_of({{"labels", list}}));
+}
+
 void RunLogWriter::add_frame(const FrameStamp& stamp, std::string_view bytes) {
   add(topics::kFrame, stamp, bytes);
 }

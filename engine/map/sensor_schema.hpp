@@ -184,6 +184,7 @@ inline constexpr std::array kSensorKeys = [] {
       of_variant("lidar", whole("returns", 1.0, 2.0, "1"), "of a beam: 1, or the first and a second"),
       of_variant("lidar", flag("own_body", "1"), "whether the robot's own body is met by the beams"),
       of_variant("lidar", flag("true_ranges", "0"), "whether the log has the true range of each beam"),
+      of_variant("lidar", flag("labels", "0"), "whether the truth has what each return is of"),
   };
 }();
 

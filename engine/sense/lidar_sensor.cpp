@@ -191,6 +191,13 @@ void LidarSensor::put(std::uint32_t scan, std::size_t ray, std::uint32_t layer, 
   intensity = static_cast<float>(std::max(0.0, share));
 }
 
+/// Says what a return is of, where there is one.
+void LidarSensor::label(std::size_t element, const Return& met, const LidarReading& reading,
+                        LidarTruth& truth) const {
+  if (!spec_.labels) return;
+  truth.returned[element] = std::isfinite(reading.range_m[element]) ? met.what.what : LidarTruth::kNothing;
+}
+
 LidarSensor::Returns LidarSensor::group(std::span<const std::vector<Met>> met, std::size_t beam) const {
   Returns returns;
   for (const std::vector<Met>& probe : met) {
@@ -217,8 +224,12 @@ void LidarSensor::measure(std::uint32_t scan, std::span<const View> views, std::
     truth.what[ray] = met[0][ray - begin].what;
     const Returns returns = group(met, ray - begin);
     const bool takes_far = spec_.returns == 1 && returns.far.hits > returns.near.hits;
-    put(scan, ray, 0, takes_far ? returns.far : returns.near, kNoReturn_m, direction, reading);
-    if (spec_.returns == 2) put(scan, ray, 1, returns.far, kUnanswered_m, direction, reading);
+    const Return& first = takes_far ? returns.far : returns.near;
+    put(scan, ray, 0, first, kNoReturn_m, direction, reading);
+    label(ray, first, reading, truth);
+    if (spec_.returns == 1) continue;
+    put(scan, ray, 1, returns.far, kUnanswered_m, direction, reading);
+    label(spec_.pattern.rays.size() + ray, returns.far, reading, truth);
   }
 }
 
@@ -231,6 +242,7 @@ void LidarSensor::read(std::uint32_t scan, std::int64_t t_begin_ns, const Trajec
   reading.intensity.resize(rays * spec_.returns);
   truth.range_m.resize(rays);
   truth.what.resize(rays);
+  truth.returned.resize(spec_.labels ? rays * spec_.returns : 0);
   const std::vector<View> seen_from = views(scan, t_begin_ns, trajectory);
   constexpr std::size_t kGrain = 1024;
   parallel_for(rays, kGrain, threads, [&](std::size_t begin, std::size_t end) {

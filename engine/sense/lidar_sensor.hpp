@@ -42,6 +42,7 @@ struct LidarSpec {
   bool skew = true;           ///< each ray is measured at its own time; false: all of them when the scan ends
   bool own_body = true;       ///< the robot's body is met where it stands in a beam
   bool true_ranges = false;   ///< LidarTruth::range_m is wanted in logs
+  bool labels = false;        ///< the truth says of each return what it is of
   SensorTiming timing{};      ///< phase: begin of the first scan
 };
 
@@ -61,6 +62,8 @@ struct LidarTruth {
 
   std::vector<double> range_m{};  ///< without noise, also nearer than min_range_m; +Inf beyond max_range_m
   std::vector<std::uint32_t> what{};  ///< index of the triangle, kOwnBody or kNothing
+  /// With LidarSpec::labels, by element of LidarReading: what a return is of, of mixed ones the nearest; kNothing where there is none. Else empty.
+  std::vector<std::uint32_t> returned{};
 };
 
 /// Measures ranges in a scene, ray by ray at its own time, from where the robot then is (motion skew).
@@ -124,6 +127,7 @@ class LidarSensor {
   Returns group(std::span<const std::vector<Met>> met, std::size_t beam) const;
   void put(std::uint32_t scan, std::size_t ray, std::uint32_t layer, const Return& met, double without,
            const Vec3& direction, LidarReading& reading) const;
+  void label(std::size_t element, const Return& met, const LidarReading& reading, LidarTruth& truth) const;
 
   LidarSpec spec_;
   const trace::Scene& scene_;

@@ -318,6 +318,7 @@ sense::LidarSpec read_lidar(const std::string& name, SensorReader& sensor) {
   spec.skew = sensor.flag("skew");
   spec.own_body = sensor.flag("own_body");
   spec.true_ranges = sensor.flag("true_ranges");
+  if (sensor.has("labels")) spec.labels = sensor.flag("labels");
   spec.T_body_sensor.t = sensor.position();
   spec.T_body_sensor.q = sensor.orientation();
   spec.timing = sensor.timing();

@@ -4,8 +4,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "support/data.hpp"
 #include "support/process.hpp"
 #include "support/python.hpp"
@@ -138,6 +141,42 @@ TEST_F(LogLayouts, EurocAndBack) {
   convert("again.mcap", "twice", {"--to", "euroc"});
   for (const char* file : {"mav0/imu0/data.csv", "mav0/imu0/sensor.yaml"})
     EXPECT_EQ(read_file(fs::path(path("twice")) / file), read_file(fs::path(path("euroc")) / file)) << file;
+}
+
+TEST_F(LogLayouts, TablesNameWhatReturnsAreOf) {
+  EXPECT_FALSE(fs::exists(fs::path(path("tables")) / "labels.csv"));
+  std::string labelled = kRig;
+  labelled.insert(labelled.find("dropout = 0.1"), "labels = true\n");
+  run_rig(labelled);
+  convert("run", "labelled", {"--to", "tables"});
+  const std::string labels = read_file(path("labelled/labels.csv"));
+  EXPECT_TRUE(labels.starts_with("id,thing,material,mover\n0,\"entity 1, brush ")) << labels;
+  const auto last = labels.rfind('\n', labels.size() - 2);
+  const auto own = std::stoul(labels.substr(last + 1));
+  EXPECT_EQ(labels.substr(last + 1), std::to_string(own) + ",\"robot\",\"\",\"robot\"\n");
+  std::istringstream rows(read_file(path("labelled/lidar.csv")));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_TRUE(row.ends_with(",intensity,layer,true_label")) << row;
+  int returns = 0, others = 0;
+  while (std::getline(rows, row)) {
+    const auto fields = split(row, ',');
+    ASSERT_EQ(fields.size(), 9u) << row;
+    const bool is_return = !fields[5].empty() && fields[5] != "inf";
+    EXPECT_EQ(is_return, !fields[8].empty()) << row;
+    if (is_return) {
+      EXPECT_LT(std::stoul(std::string(fields[8])), own) << row;
+    }
+    (is_return ? returns : others) += 1;
+  }
+  EXPECT_GT(returns, 5000);
+  EXPECT_GT(others, 500) << "drop-outs";
+  const Ended replayed = hallway({"replay", path("run/run.mcap"), "--plugin", "slam_point", "--out",
+                                  path("replayed"), "--quiet", "--force"});
+  ASSERT_EQ(replayed.status, 0) << replayed.err;
+  convert("replayed", "again", {"--to", "tables"});
+  EXPECT_EQ(read_file(path("again/labels.csv")), labels);
+  EXPECT_EQ(read_file(path("again/lidar.csv")), read_file(path("labelled/lidar.csv")));
 }
 
 TEST_F(LogLayouts, TablesOfEverySensor) {

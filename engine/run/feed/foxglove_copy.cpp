@@ -97,6 +97,7 @@ class Shower {
   void operator()(const log::ActivationMessage& message) { view_.set_sensors(sensors_of(message.json)); }
   void operator()(const log::IterationPose& pose) { view_.add_true_pose(stamp_, pose); }
   void operator()(const std::vector<log::Landmark>& landmarks) { view_.set_true_landmarks(landmarks); }
+  void operator()(const std::vector<log::SurfaceLabel>&) {}
   void operator()(const std::vector<log::TruePlane>&) {}  // no view shows them
   void operator()(const log::PoseMessage& message) { view_.add_pose(stamp_, message.pose); }
   void operator()(const log::MapAnswer& map) { view_.add_map(stamp_, map); }

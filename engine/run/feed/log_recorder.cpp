@@ -18,6 +18,7 @@ LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
       shape_(robot_shape(manifest)) {
   if (source.true_landmarks()) recorder_.writer().add_true_landmarks(*source.true_landmarks());
   if (source.true_planes()) recorder_.writer().add_true_planes(*source.true_planes());
+  if (!source.facts().labels.empty()) recorder_.writer().add_labels(source.facts().labels);
 }
 
 void LogRecorder::add_view(bool has_answers) {

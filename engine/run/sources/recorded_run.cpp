@@ -90,6 +90,7 @@ class Collector {
   void operator()(std::vector<log::Landmark>&& landmarks) {
     run_.facts.true_landmarks = std::move(landmarks);
   }
+  void operator()(std::vector<log::SurfaceLabel>&& labels) { run_.facts.labels = std::move(labels); }
   void operator()(std::vector<log::TruePlane>&& planes) { run_.facts.true_planes = std::move(planes); }
 
  private:

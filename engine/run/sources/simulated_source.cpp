@@ -22,6 +22,7 @@
 #include "record/plane_observations.hpp"
 #include "run/sources/abi_pose.hpp"
 #include "sim/describe.hpp"
+#include "sim/scene_surfaces.hpp"
 
 namespace hallway::run {
 
@@ -155,8 +156,9 @@ void fill_odometry(const sense::OdometryReading& reading, hw_odometry_t& into) {
 
 /// What is true of a reading and not of the whole frame.
 /// @param sensor  that it is of
+/// @param labels  of a lidar's returns, or none
 void add_truth(const sim::Reading& reading, const sim::SensorSpec& sensor, const sim::Frame& step,
-               SourceFrame& frame) {
+               std::vector<double> labels, SourceFrame& frame) {
   log::SampleTruth truth{.sample = static_cast<std::uint32_t>(&reading - step.readings.data())};
   if (reading.t_ns != step.t_ns) {
     truth.position_m = to_array(reading.T_world_body.t);
@@ -170,6 +172,7 @@ void add_truth(const sim::Reading& reading, const sim::SensorSpec& sensor, const
           if (has_values) add_values(sensed.truth, truth.values);
       },
       reading.sensed);
+  if (!labels.empty()) truth.values.emplace("label", std::move(labels));
   if (reading.stamp_ns != reading.t_ns || reading.stamp_begin_ns != reading.t_begin_ns)
     truth.values.emplace("t_s", std::vector{static_cast<double>(reading.t_begin_ns) * 1e-9,
                                             static_cast<double>(reading.t_ns) * 1e-9});
@@ -275,6 +278,31 @@ void SimulatedSource::add_sensor(const sense::LidarSpec& spec) {
   facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size()),
                                            static_cast<double>(scan_ns) * 1e-9));
   first_true_plane_.emplace_back();
+  if (spec.labels && facts_.labels.empty()) add_labels();
+}
+
+/// Those of the scene, and behind them the robot's.
+void SimulatedSource::add_labels() {
+  sim::SceneLabels scene = sim::label_scene(simulator_.compiled(), simulator_.models());
+  for (const sim::SurfaceLabel& label : scene.labels)
+    facts_.labels.push_back({.id = facts_.labels.size(), .thing = label.thing, .material = label.material});
+  facts_.labels.push_back({.id = facts_.labels.size(), .thing = "robot", .mover = "robot"});
+  label_of_triangle_ = std::move(scene.of_triangle);
+}
+
+/// By element of a scan: what its return is of, -1 where there is none.
+std::vector<double> SimulatedSource::labels_of(const sense::LidarTruth& truth) const {
+  std::vector<double> labels;
+  labels.reserve(truth.returned.size());
+  for (const std::uint32_t what : truth.returned) {
+    if (what == sense::LidarTruth::kNothing) {
+      labels.push_back(-1.0);
+    } else {
+      const bool is_own = what == sense::LidarTruth::kOwnBody;
+      labels.push_back(is_own ? static_cast<double>(facts_.labels.size() - 1) : label_of_triangle_[what]);
+    }
+  }
+  return labels;
 }
 
 void SimulatedSource::add_walls() {
@@ -396,7 +424,9 @@ void SimulatedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
     std::visit([&](const auto& spec) { add_reading(spec, reading, frame, builder); },
                simulator_.scenario().sensors[reading.sensor]);
     builder.set_reading(reading.sequence, reading.stamp_begin_ns, reading.stamp_ns);
-    add_truth(reading, simulator_.scenario().sensors[reading.sensor], step, frame);
+    const auto* lidar = std::get_if<sim::LidarSensed>(&reading.sensed);
+    add_truth(reading, simulator_.scenario().sensors[reading.sensor], step,
+              lidar != nullptr ? labels_of(lidar->truth) : std::vector<double>{}, frame);
   }
 }
 

@@ -42,6 +42,8 @@ class SimulatedSource : public Source {
     facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
     first_true_plane_.emplace_back();
   }
+  void add_labels();
+  std::vector<double> labels_of(const sense::LidarTruth& truth) const;
   std::uint64_t add_true_planes(std::vector<log::TruePlane> planes);
   void add_reading(const sense::PointSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
@@ -62,8 +64,9 @@ class SimulatedSource : public Source {
                    host::FrameBuilder& builder) const;
 
   const sim::Simulator& simulator_;
-  std::optional<sim::DrivenRobot> robot_;  ///< where a drive moves it
-  DriveNotes notes_;                       ///< since they were taken
+  std::optional<sim::DrivenRobot> robot_;         ///< where a drive moves it
+  DriveNotes notes_;                              ///< since they were taken
+  std::vector<std::uint32_t> label_of_triangle_;  ///< where a lidar has labels
   /// By sensor: the number of its first one in true_planes(); none where it sees no planes.
   std::vector<std::optional<std::uint64_t>> first_true_plane_;
 };

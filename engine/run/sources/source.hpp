@@ -16,6 +16,7 @@
 #include "log/landmark_id.hpp"
 #include "log/landmarks.hpp"
 #include "log/run_log.hpp"
+#include "log/surface_label.hpp"
 #include "log/true_planes.hpp"
 #include "sim/driven_robot.hpp"
 
@@ -74,7 +75,8 @@ struct SourceFacts {
   bool has_tracks = false;                  ///< whether a sensor follows its points in any frame
   std::optional<std::vector<log::Landmark>> true_landmarks{};  ///< world, where that is known
   std::optional<std::vector<log::TruePlane>> true_planes{};    ///< likewise
-  std::vector<log::EventRow> events{};  ///< what is made to happen, by time; known beforehand
+  std::vector<log::SurfaceLabel> labels{};  ///< of what returns of lidars are of, where any has them
+  std::vector<log::EventRow> events{};      ///< what is made to happen, by time; known beforehand
 };
 
 /// What a drive obeyed and what its robot touched.

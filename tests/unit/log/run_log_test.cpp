@@ -146,6 +146,30 @@ TEST(RunLog, TruePlanesReadBackToTheSameBits) {
   }
 }
 
+TEST(RunLog, LabelsReadBack) {
+  const std::vector<SurfaceLabel> labels{{.id = 0, .thing = "entity 0, brush 7", .material = "a \"b\"\n"},
+                                         {.id = 5, .thing = "robot", .mover = "robot"}};
+  const auto read_back = [](const std::vector<SurfaceLabel>& written) {
+    StringOutput out;
+    RunLogWriter writer(out, "test", "{}");
+    writer.add_labels(written);
+    writer.finish();
+    const MemoryInput input(out.text());
+    McapReader reader(input);
+    std::vector<SurfaceLabel> back;
+    while (const McapItem* item = reader.next()) {
+      const auto* message = std::get_if<McapMessage>(item);
+      if (message == nullptr) continue;
+      const McapChannel& channel = reader.channels().at(message->channel_id);
+      EXPECT_TRUE(is_of_whole_log(channel.topic));
+      back = std::get<std::vector<SurfaceLabel>>(parse_run_message(channel, *message));
+    }
+    return back;
+  };
+  EXPECT_EQ(read_back(labels), labels);
+  EXPECT_TRUE(test::error_of([&] { read_back({labels[0], labels[0]}); })) << "one id twice";
+}
+
 TEST(RunLog, TruthOfSamplesReadsBackToTheSameBits) {
   const std::vector<SampleTruth> truths{
       {.sample = 0, .position_m = std::array{0.1, -1e-300, 1.0 / 3.0}, .orientation = {0.5, -0.5, 0.5, -0.5}},

@@ -275,6 +275,32 @@ TEST_F(LidarEdge, SurfacesApartGiveTheOneWithMoreOfTheBeamOrBoth) {
   EXPECT_TRUE(std::isnan(measure(5.0, 2, -0.9)[1])) << "all of the beam on the post: no second return";
 }
 
+TEST_F(LidarEdge, LabelsAreOfEachReturn) {
+  // The post has the triangles 0 to 11, the wall the others.
+  const Place place(test::mesh_of({test::box({2, 0, -1}, {2.1, 1, 1}), test::box({5, -5, -1}, {5.1, 5, 1})}));
+  LidarSpec spec;
+  spec.name = "lidar";
+  spec.pattern.rays = {PatternRay{}, PatternRay{.azimuth_rad = 0.2}, PatternRay{.azimuth_rad = 3.0}};
+  spec.beam = {.divergence_rad = 0.01, .pulse_m = 0.5};
+  spec.returns = 2;
+  EXPECT_TRUE(scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), test::StandingBody({}))
+                  .truth.returned.empty());
+  spec.labels = true;
+  const Scan scan = scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), test::StandingBody({}));
+  const auto& labels = scan.truth.returned;
+  ASSERT_EQ(labels.size(), 6u);
+  EXPECT_LT(labels[0], 12u) << "the edge of the post";
+  EXPECT_GE(labels[3], 12u) << "the wall behind it";
+  EXPECT_LT(labels[3], LidarTruth::kOwnBody);
+  EXPECT_LT(labels[1], 12u);
+  EXPECT_EQ(labels[4], LidarTruth::kNothing) << "no second return";
+  EXPECT_EQ(labels[2], LidarTruth::kNothing) << "a free beam";
+  spec.response.dropout = 1.0;
+  for (const std::uint32_t label :
+       scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), test::StandingBody({})).truth.returned)
+    EXPECT_EQ(label, LidarTruth::kNothing) << "of no answer";
+}
+
 TEST(LidarSensor, SeesItsOwnRobotUnlessItIsInIt) {
   const Place place(room());
   LidarSpec spec = plain_lidar();

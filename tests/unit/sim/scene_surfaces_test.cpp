@@ -148,6 +148,28 @@ TEST_F(MaterialsOfAScene, LabelsNameBrushAndMaterial) {
               labels.labels.end());
 }
 
+TEST_F(MaterialsOfAScene, LabelsOfReturnsAreOfWhereTheyAre) {
+  const auto world = simulator("", "", "labels = true\nnoise_m = 0.001\n");
+  const SceneLabels scene = label_scene(world->compiled(), world->models());
+  const Frame frame = world->step(1);
+  const auto& spec = std::get<sense::LidarSpec>(world->scenario().sensors[0]);
+  const auto& [scan, truth] = std::get<LidarSensed>(frame.readings[0].sensed);
+  ASSERT_EQ(truth.returned.size(), scan.range_m.size());
+  int compared = 0;
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    EXPECT_EQ(std::isfinite(scan.range_m[i]), truth.returned[i] != sense::LidarTruth::kNothing);
+    if (!std::isfinite(scan.range_m[i])) continue;
+    const Pose at = world->pose_at_time(frame.readings[0].t_begin_ns + world->lidar(0).offsets_ns()[i]);
+    const double azimuth = spec.pattern.rays[i].azimuth_rad;
+    const std::string material =
+        material_at(at.t + truth.range_m[i] * (at.q * Vec3(std::cos(azimuth), std::sin(azimuth), 0.0)));
+    if (material.empty()) continue;
+    EXPECT_EQ(scene.labels[scene.of_triangle[truth.returned[i]]].material, material);
+    ++compared;
+  }
+  EXPECT_GT(compared, 400);
+}
+
 TEST_F(MaterialsOfAScene, BadTablesAreRefused) {
   const auto error = hallway::test::error_of([&] { simulator("[material.glass]\nreflectance = 2\n"); });
   ASSERT_TRUE(error);
