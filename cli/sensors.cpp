@@ -56,6 +56,8 @@ std::string values_text(const map::KeySpec& key) {
       return "one or three, " + range;
     case map::KeyKind::kVector:
       return "three, " + range;
+    case map::KeyKind::kText:
+      return "the name of a file";
     default:
       return range;
   }

@@ -161,6 +161,8 @@ inline constexpr std::array kSensorKeys = [] {
       of_variant("imu", number("force_scale_sigma", 0.0, 0.1, "0"), "of the scale factor's error, a share"),
       of_variant("imu", number_above("force_limit", 0.0, 1e9, "1e9"), "greatest reading, m/s^2"),
       of_variant("imu", number("gravity_m_s2", 0.0, 100.0, "9.80665"), "down is -z of the world"),
+      of_variant("lidar", KeySpec{.name = "pattern", .kind = KeyKind::kText},
+                 "a table of beams, in place of rings and columns"),
       of_variant("lidar", whole("rings", 1.0, 4096.0, "16"), "rows of beams"),
       of_variant("lidar", number("lowest_deg", -90.0, 90.0, "-15"), "elevation of the first ring"),
       of_variant("lidar", number("highest_deg", -90.0, 90.0, "15"), "elevation of the last ring"),

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "base/text.hpp"
+#include "host/plugin_table.hpp"
 #include "map/sensors.hpp"
+#include "sim/pattern_file.hpp"
 #include "sim/schema.hpp"
 
 namespace hallway::sim {
@@ -38,6 +41,10 @@ class SensorReader {
     const double yaw = angle("yaw_deg");
     const double pitch = angle("pitch_deg");
     return from_yaw_pitch_roll(yaw, pitch, angle("roll_deg"));
+  }
+  /// A file that a key names, beside the one that the key is in.
+  std::filesystem::path file(const char* key) {
+    return host::beside(table_.file(key), table_.text(key), table_.line(key));
   }
   Error error(const char* key, const std::string& problem) const { return table_.error(key, problem); }
 
@@ -284,7 +291,21 @@ sense::ImuSensorSpec read_inertial(const std::string& name, SensorReader& sensor
   return spec;
 }
 
+constexpr std::array kSpinKeys{"rings",    "lowest_deg", "highest_deg", "columns",
+                               "from_deg", "step_deg",   "clockwise"};
+
+/// That of a file beside the one that names it.
+sense::RayPattern read_named_pattern(SensorReader& sensor) {
+  for (const char* key : kSpinKeys) {
+    if (sensor.has(key)) throw sensor.error(key, "is given together with `pattern`, which has all beams");
+  }
+  const double rate_hz = sensor.number_if_told("rate_hz");
+  if (rate_hz == 0.0) throw sensor.error("pattern", "needs `rate_hz`: a scan takes the time to the next one");
+  return read_pattern_file(sensor.file("pattern"), 1.0 / rate_hz);
+}
+
 sense::RayPattern read_pattern(SensorReader& sensor) {
+  if (sensor.has("pattern")) return read_named_pattern(sensor);
   sense::SpinSpec spin;
   spin.from_rad = sensor.angle("from_deg");
   spin.step_rad = sensor.angle("step_deg") * (sensor.flag("clockwise") ? -1.0 : 1.0);
@@ -371,8 +392,10 @@ TomlTable with_preset(const TomlTable& table) {
   const auto found = std::ranges::find_if(
       kPresets, [&](const SensorPreset& known) { return known.kind == kind && known.name == *name; });
   if (found == kPresets.end()) return filled;
+  const bool has_pattern = find(filled, "pattern") != nullptr;
   for (const auto& [key, value] : found->values) {
     if (find(filled, key) != nullptr) continue;
+    if (has_pattern && std::ranges::find(kSpinKeys, key) != kSpinKeys.end()) continue;
     TomlNode node = scenario_value(map::sensor_key(kind, key), std::string(value));
     node.line = preset->line;
     node.file = preset->file;
@@ -413,7 +436,7 @@ TomlNode scenario_value(const map::KeySpec& key, const std::string& value) {
     if (const auto whole = parse_int(trim(value))) return {.value = *whole};
   }
   if (key.kind == map::KeyKind::kFlag && (value == "0" || value == "1")) return {.value = value == "1"};
-  if (key.kind == map::KeyKind::kChoice) return {.value = value};
+  if (key.kind == map::KeyKind::kChoice || key.kind == map::KeyKind::kText) return {.value = value};
   return node_of(value);
 }
 

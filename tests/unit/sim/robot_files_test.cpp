@@ -148,6 +148,8 @@ TEST(RobotFiles, EachKeyOfASensorIsOfTheFileUnlessItIsGivenNearer) {
   for (const std::string_view kind : split(spec.key("kind")->choices, ' ')) {
     for (const map::KeySpec& key : spec.keys) {
       if (key.name == "name" || key.name == "kind" || !map::belongs(key, kind)) continue;
+      seen.insert(std::string(key.name));
+      if (key.kind == map::KeyKind::kText) continue;  // a file, below
       std::string keys = key_text("name", "s") + key_text("kind", std::string(kind)) +
                          key_text(std::string(key.name), values_of(key)[0]);
       if (key.name == "min_range_m") keys += key_text("max_range_m", "1e6");
@@ -155,12 +157,27 @@ TEST(RobotFiles, EachKeyOfASensorIsOfTheFileUnlessItIsGivenNearer) {
       const std::string robot =
           robot_text(kRoundBody + entity_text("hw_drive", "") + entity_text("hw_sensor", keys));
       expect_precedence(key, robot, "sensor.s." + std::string(key.name));
-      seen.insert(std::string(key.name));
     }
   }
   std::set<std::string> all{spec.keys.size() > 0 ? "kind" : ""};
   for (const map::KeySpec& key : spec.keys) all.insert(std::string(key.name));
   EXPECT_EQ(seen.size() + 2, all.size()) << "but for name and kind";
+}
+
+TEST(RobotFiles, APatternIsBesideTheFileThatNamesIt) {
+  const std::string lidar = key_text("name", "s") + key_text("kind", "lidar") + key_text("rate_hz", "10") +
+                            key_text("pattern", "beams.csv");
+  const Files files(robot_text(kRoundBody + entity_text("hw_sensor", lidar)), robot_scenario());
+  const auto beams = [&](const Scenario& scenario) {
+    return std::get<sense::LidarSpec>(scenario.sensors.at(0)).pattern.rays.size();
+  };
+  const std::string head = "azimuth_deg,elevation_deg,t_s\n";
+  files.folder.write("robots/beams.csv", head + "0,0,0\n");
+  EXPECT_EQ(beams(files.load()), 1u);
+  const Files nearer(robot_text(kRoundBody + entity_text("hw_sensor", lidar)),
+                     robot_scenario("", "[sensor.s]\npattern = 'own.csv'\n"));
+  nearer.folder.write("own.csv", head + "0,0,0\n1,0,0\n");
+  EXPECT_EQ(beams(nearer.load()), 2u);
 }
 
 TEST(RobotFiles, TheBodyIsTheFilesUnlessTheScenarioHasAnother) {
