@@ -105,19 +105,11 @@ void add_points(log::RowFile& file, const TableReading& reading) {
   }
 }
 
-/// Of each beam, -1 where nothing is in range; null where the log does not have them.
-const std::vector<double>* true_ranges_of(const TableReading& reading, std::uint64_t beams) {
-  if (reading.truth == nullptr) return nullptr;
-  const auto found = reading.truth->values.find("range_m");
-  const bool has_all = found != reading.truth->values.end() && beams > 0 && found->second.size() == beams;
-  return has_all ? &found->second : nullptr;
-}
-
 void add_scan(log::RowFile& file, const TableReading& reading) {
   const auto& scan = reading.payload<hw_range_scan_t>();
   const std::vector<double>* labels = reading.true_values("label", scan.count);
   const std::uint64_t in_layer = scan.layers > 0 ? scan.count / scan.layers : scan.count;
-  const std::vector<double>* true_ranges = true_ranges_of(reading, in_layer);
+  const std::vector<double>* true_ranges = reading.true_values("range_m", in_layer);  // -1: nothing in range
   for (std::uint64_t i = 0; i < scan.count; ++i) {
     const hw_ray_t& ray = *hw_ray_at(&scan, i);
     Cells row(file.next_row());

@@ -157,15 +157,15 @@ TEST_F(LogLayouts, TablesNameWhatReturnsAreOf) {
   std::istringstream rows(read_file(path("labelled/lidar.csv")));
   std::string row;
   std::getline(rows, row);
-  EXPECT_TRUE(row.ends_with(",intensity,layer,true_label")) << row;
+  EXPECT_TRUE(row.ends_with(",layer,true_range_m,true_label")) << row;
   int returns = 0, others = 0;
   while (std::getline(rows, row)) {
     const auto fields = split(row, ',');
-    ASSERT_EQ(fields.size(), 9u) << row;
+    ASSERT_EQ(fields.size(), 10u) << row;
     const bool is_return = !fields[5].empty() && fields[5] != "inf";
-    EXPECT_EQ(is_return, !fields[8].empty()) << row;
+    EXPECT_EQ(is_return, !fields[9].empty()) << row;
     if (is_return) {
-      EXPECT_LT(std::stoul(std::string(fields[8])), own) << row;
+      EXPECT_LT(std::stoul(std::string(fields[9])), own) << row;
     }
     (is_return ? returns : others) += 1;
   }
