@@ -161,7 +161,7 @@ def glb_triangles(data):
 
 
 def dae_triangles(data):
-    """Triangles of a COLLADA file with z up, in metres."""
+    """Triangles of a COLLADA file with z up, in metres. Its decimals are rounded to single precision, in which models are read."""
     root = ElementTree.fromstring(data)
     space = root.tag[:root.tag.index("}") + 1]
     tagged = lambda node, *names: node.iterfind("/".join(space + name for name in names))
@@ -175,7 +175,7 @@ def dae_triangles(data):
             stride = 1 + max(int(i.get("offset")) for i in inputs)
             vertex = next(i for i in inputs if i.get("semantic") == "VERTEX")
             source = next(i for i in tagged(named[vertex.get("source")], "input") if i.get("semantic") == "POSITION")
-            points = np.array(next(tagged(named[source.get("source")], "float_array")).text.split(), float).reshape(-1, 3)
+            points = np.array(next(tagged(named[source.get("source")], "float_array")).text.split(), np.float32).astype(float).reshape(-1, 3)
             for p in tagged(part, "p"):
                 order = np.array(p.text.split(), int).reshape(-1, stride)[:, int(vertex.get("offset"))]
                 yield points[order].reshape(-1, 3, 3)
@@ -183,7 +183,7 @@ def dae_triangles(data):
     def walk(node, above):
         here = above
         for matrix in tagged(node, "matrix"):
-            here = here @ np.array(matrix.text.split(), float).reshape(4, 4)
+            here = here @ np.array(matrix.text.split(), np.float32).astype(float).reshape(4, 4)
         for instance in tagged(node, "instance_geometry"):
             for triangles in geometry(named[instance.get("url")]):
                 found.append(triangles @ here[:3, :3].T + here[:3, 3])

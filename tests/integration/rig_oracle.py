@@ -16,6 +16,7 @@ import numpy as np
 from body_oracle import read_map, rotations, world_of
 
 GRAZING_RAD = 1e-6
+TOLERANCE_M = 1e-6
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
 
 
@@ -100,13 +101,12 @@ def mount_of(sensor):
 
 
 def first_hits(triangles, origins, directions):
-    """Distance of the first hit of each ray, infinite where there is none, and the cosine to its normal. Rays of one origin that follow each other are traced together."""
+    """Distance of the first hit of each ray, infinite where there is none. Rays of one origin that follow each other are traced together."""
     a, e1, e2 = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     normals = np.cross(e1, e2)
     usable = np.linalg.norm(normals, axis=1) > 0
     a, e1, e2, normals = a[usable], e1[usable], e2[usable], normals[usable]
-    ranges, cosines = np.empty(len(origins)), np.empty(len(origins))
-    areas = np.linalg.norm(normals, axis=1)
+    ranges = np.empty(len(origins))
     begin = 0
     while begin < len(origins):
         end = begin + 1
@@ -121,11 +121,9 @@ def first_hits(triangles, origins, directions):
         depth = (normals * to).sum(1)[:, None] * side
         hit = (facing > 0) & (u >= 0) & (v >= 0) & (u + v <= facing) & (depth >= 0)
         distances = np.where(hit, depth / np.where(facing > 0, facing, 1), math.inf)
-        first = distances.argmin(axis=0)
-        columns = np.arange(end - begin)
-        ranges[begin:end], cosines[begin:end] = distances[first, columns], facing[first, columns] / areas[first]
+        ranges[begin:end] = distances.min(axis=0)
         begin = end
-    return ranges, cosines
+    return ranges
 
 
 def grazes(triangles, origin, direction, up_to):
@@ -224,7 +222,7 @@ class Rig:
         return turn.T @ angular / duration, turn.T @ force / duration
 
 
-def main(folder, frames, wanted_rays, tolerance_m):
+def main(folder, frames, wanted_rays):
     rig = Rig(folder)
     triangles = world_of(folder)[1]
     sensors = list(rig.scenario["sensor"].items())
@@ -261,7 +259,7 @@ def main(folder, frames, wanted_rays, tolerance_m):
             origins[k], directions[k] = p + r @ arm, r @ turn @ d
             measured.append(float(ray["range_m"]))
             said["most_skew_m"] = max(said["most_skew_m"], float(np.linalg.norm(p + r @ (arm + 5 * turn @ d) - begin_p - begin_r @ (arm + 5 * turn @ d))))
-        ranges, cosines = first_hits(triangles, origins, directions)
+        ranges = first_hits(triangles, origins, directions)
         ranges[ranges > sensor.get("max_range_m", 100)] = math.inf
         for k, (mine, theirs) in enumerate(zip(ranges, measured)):
             said["rays"] += 1
@@ -269,14 +267,14 @@ def main(folder, frames, wanted_rays, tolerance_m):
                 said["free"] += 1
                 continue
             difference = abs(mine - theirs)
-            if difference * cosines[k] <= tolerance_m:  # across the surface: what a corner is off grows along a slanted ray
+            if difference <= TOLERANCE_M:
                 said["worst_range_m"] = max(said["worst_range_m"], difference)
                 continue
             said["different"] += 1
-            if not grazes(triangles, origins[k], directions[k], min(mine, theirs) + tolerance_m):
+            if not grazes(triangles, origins[k], directions[k], min(mine, theirs) + TOLERANCE_M):
                 said["unexplained"] += 1
     print(json.dumps(said))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2], int(sys.argv[3]), float(sys.argv[4]))
+    main(sys.argv[1], sys.argv[2], int(sys.argv[3]))

@@ -40,7 +40,7 @@ class Rig : public testing::Test {
   }
 
   /// What the oracle says of every n-th frame.
-  RigJson look(const fs::path& out, int frames, int every, int rays, double tolerance_m = 1e-6) {
+  RigJson look(const fs::path& out, int frames, int every, int rays) {
     std::string documents;
     for (int i = 0; i < frames; i += every) {
       const Ended ended = hallway({"log", "frame", out / "run.mcap", std::to_string(i), "--json"});
@@ -48,10 +48,9 @@ class Rig : public testing::Test {
       documents += RigJson::parse(ended.out).dump() + "\n";
     }
     const fs::path lines = folder_.write("frames.jsonl", documents), said = folder_ / "said.json";
-    const std::string command = "'" + python_ + "' -B '" +
-                                (source_folder() / "tests/integration/rig_oracle.py").string() + "' '" +
-                                out.string() + "' '" + lines.string() + "' " + std::to_string(rays) + " " +
-                                format_double(tolerance_m) + " > '" + said.string() + "'";
+    const std::string command =
+        "'" + python_ + "' -B '" + (source_folder() / "tests/integration/rig_oracle.py").string() + "' '" +
+        out.string() + "' '" + lines.string() + "' " + std::to_string(rays) + " > '" + said.string() + "'";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return RigJson::parse(read_file(said));
   }
@@ -106,8 +105,7 @@ TEST_F(Rig, ReadingsOnASmoothPathAreThoseOfAnIndependentComputation) {
 /// A lidar on a robot that stands at free places, in a map of Quake and in a building that is a mesh.
 class StandingRig : public Rig {
  protected:
-  /// @param tolerance_m  across a surface: of brushes 1e-6; models are read in single precision
-  void expect_ranges(const fs::path& map, double tolerance_m) {
+  void expect_ranges(const fs::path& map) {
     folder_.write("stand.csv", "t_ns,forward_m_s,angular_rad_s\n0,0,0\n");
     const std::string scan = long_mode() ? "columns = 16384\nstep_deg = 0.02\nrings = 16\n"
                                          : "columns = 360\nstep_deg = 1\nrings = 8\n";
@@ -121,7 +119,7 @@ class StandingRig : public Rig {
                                scan +
                                "position_m = [0.1, 0.05, 0.6]\nyaw_deg = 0.7\n[sensor.eyes]\nkind = "
                                "\"points\"\nmax_range_m = 5\n[[plugin]]\nname = \"slam_point\"\n");
-      const RigJson said = look(out, 2, 1, 10'000'000, tolerance_m);
+      const RigJson said = look(out, 2, 1, 10'000'000);
       if (long_mode()) std::printf("%s, seed %d: %s\n", map.filename().c_str(), seed, said.dump().c_str());
       EXPECT_EQ(said.at("unexplained"), 0) << said;
       EXPECT_LE(said.at("different").get<double>(), 1e-3 * said.at("rays").get<double>())
@@ -135,14 +133,14 @@ class StandingRig : public Rig {
 
 TEST_F(StandingRig, RangesInAMapOfQuake) {
   HALLWAY_DATA_OR_SKIP(map, "maps/id1/e1m1.map");
-  expect_ranges(map, 1e-6);
+  expect_ranges(map);
 }
 
 TEST_F(StandingRig, RangesInAModel) {
   HALLWAY_DATA_OR_SKIP(building, "models/buildings/willowgarage/meshes/willowgarage_visual.dae");
   const fs::path map = folder_ / "willowgarage.map";
   ASSERT_EQ(hallway({"import", building, "--copy", "--out", map}).status, 0);
-  expect_ranges(map, 5e-6);
+  expect_ranges(map);
 }
 
 }  // namespace
