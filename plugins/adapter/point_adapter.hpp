@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "adapter/body_frame.hpp"
 #include "adapter/newest_sample.hpp"
 #include "geometry/se3.hpp"
 
@@ -86,31 +87,21 @@ class PointAdapter {
   }
 
   /// T_map_body, in the ABI's form, of a sensor pose or of a submap's, which is one.
-  hw_pose_t body_pose(const Pose& T_map_sensor) const {
-    const Pose T = T_body_reference_ * T_map_sensor * T_reference_body_;
-    return {{T.t.x(), T.t.y(), T.t.z()}, {T.q.w(), T.q.x(), T.q.y(), T.q.z()}};
-  }
+  hw_pose_t body_pose(const Pose& T_map_sensor) const { return body_.pose(T_map_sensor); }
 
   /// The covariance of body_pose() from that of the sensor pose, as hw_pose_output_t has it; symmetric, so by rows or columns.
   Mat6 body_covariance(const Pose& T_map_sensor, const Mat6& covariance) const {
-    const Mat3 turn = T_body_reference_.q.toRotationMatrix();
-    const Vec3 arm = T_map_sensor.q * T_reference_body_.t;  // from the sensor to the body
-    Mat3 cross;
-    cross << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
-    Mat6 motion;
-    motion << turn, -turn * cross, Mat3::Zero(), turn;
-    const Mat6 moved = motion * covariance * motion.transpose();
-    return 0.5 * (moved + moved.transpose());
+    return body_.covariance(T_map_sensor, covariance);
   }
 
   /// The covariance of a point of the algorithm's map in the map's frame.
   Mat3 map_covariance(const Mat3& covariance) const {
-    const Mat3 turn = T_body_reference_.q.toRotationMatrix();
+    const Mat3 turn = body_.T_body_sensor().q.toRotationMatrix();
     return turn * covariance * turn.transpose();
   }
 
   /// A point of the algorithm's map in the map's frame.
-  Vec3 map_point(const Vec3& p) const { return T_body_reference_ * p; }
+  Vec3 map_point(const Vec3& p) const { return body_.T_body_sensor() * p; }
 
  private:
   struct Sensor {
@@ -123,20 +114,11 @@ class PointAdapter {
     std::size_t begin, end;
   };
 
-  static Pose to_pose(const hw_pose_t& pose) {
-    const auto& q = pose.orientation;
-    return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]),
-            Vec3(pose.position[0], pose.position[1], pose.position[2])};
-  }
-
   void add_sensor(const hw_sensor_info_t& info) {
     noise_m_ = std::fmax(noise_m_, sdk::largest_noise_m(info));
     const Pose T_body_sensor = to_pose(info.T_body_sensor);
-    if (sensors_.empty()) {
-      T_body_reference_ = T_body_sensor;
-      T_reference_body_ = T_body_sensor.inverse();
-    }
-    sensors_.push_back({info.id, sensors_.empty() ? Pose{} : T_reference_body_ * T_body_sensor});
+    if (sensors_.empty()) body_ = BodyFrame(T_body_sensor);
+    sensors_.push_back({info.id, sensors_.empty() ? Pose{} : body_.T_sensor_body() * T_body_sensor});
   }
 
   const Sensor& find_sensor(std::uint32_t id) const {
@@ -170,8 +152,7 @@ class PointAdapter {
   }
 
   std::vector<Sensor> sensors_;  ///< those that give points; the first one is the reference
-  Pose T_body_reference_;
-  Pose T_reference_body_;
+  BodyFrame body_;
   double noise_m_ = std::nan("");
   bool lost_ = false;
   std::vector<Vec3> points_;  ///< of this frame, in the reference sensor's frame
