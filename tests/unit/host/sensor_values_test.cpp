@@ -88,7 +88,8 @@ TEST_P(SensorValues, EveryModeOfOursThatKnowsANoiseTakesIt) {
   EXPECT_EQ(taken("slam_plane", sensor(0.01, 0, 0, HW_SAMPLE_PLANES), {{"mode", "thesis", {}}}),
             (Noise{"0.02", false}))
       << "it knows no noise";
-  EXPECT_EQ(taken("icp", sensor(0.01, 0, 0)), std::nullopt);
+  EXPECT_EQ(taken("icp", sensor(0.01, 0, 0)), (Noise{"0.02", false})) << "it knows one of scans alone";
+  EXPECT_EQ(taken("icp", sensor(0.01, 0, 0, HW_SAMPLE_RANGE_SCAN)), (Noise{"0.01", true}));
   EXPECT_EQ(taken("em", sensor(0.01, 0, 0)), std::nullopt) << "it measures the noise";
 }
 
