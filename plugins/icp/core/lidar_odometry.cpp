@@ -22,6 +22,7 @@ constexpr double kUnseen_rad = 0.02;
 constexpr double kSurelyFound = 0.9;  // overlap that ends a search
 constexpr double kSearched = 0.04;    // variance of a prediction that is another turn [m^2, rad^2]
 constexpr double kUsual = 0.8;        // of the usual overlap: below it a prediction may have been wrong
+constexpr double kDoubtful = 0.7;     // likewise: below it the place may be another
 constexpr double kOverlapGain = 0.2;
 constexpr double kForgetAfter_m = 5.0;  // way between two looks at what is far
 constexpr double kReachGrows = 3.0;     // reach over the error of predictions
@@ -37,20 +38,6 @@ double largest_sigma(const Mat3& covariance) {
 
 Pose turned_by(const Pose& pose, double yaw) {
   return {(pose.q * Quat(Eigen::AngleAxisd(yaw, Vec3::UnitZ()))).normalized(), pose.t};
-}
-
-Scan usable_scan(const Scan& scan) {
-  Scan kept;
-  kept.begin_ns = scan.begin_ns;
-  kept.end_ns = scan.end_ns;
-  kept.planar = scan.planar;
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (!usable(scan.points[i])) continue;
-    kept.points.push_back(scan.points[i]);
-    kept.places.push_back(scan.places[i]);
-    if (!scan.times_ns.empty()) kept.times_ns.push_back(scan.times_ns[i]);
-  }
-  return kept;
 }
 
 }  // namespace
@@ -74,7 +61,9 @@ const ScanAnswer& LidarOdometry::process(const Scan& given) {
     answer_.counters.open = located.fit.open - (scan.planar ? 3 : 0);
     answer_.counters.sigma_m = largest_sigma(located.fit.covariance.topLeftCorner<3, 3>());
     answer_.counters.sigma_rad = largest_sigma(located.fit.covariance.bottomRightCorner<3, 3>());
-    if (accepted(located.fit)) {
+    if (accepted(located.fit) && located.fit.overlap < kDoubtful * overlap_) {
+      waver(scan, located);
+    } else if (accepted(located.fit)) {
       keep(scan, located);
     } else {
       miss(scan, located);
@@ -107,6 +96,7 @@ void LidarOdometry::begin_again(const Scan& scan) {
   if (surfels.size() < kLeastSurfels) return;
   start(scan, surfels);
   first_ = scan;
+  overlap_ = 0.0;
   miss_m_ = options_.scan_reach_m / kReachGrows;
   answer_.has_pose = true;
   answer_.T_map_scanner = Pose();
@@ -245,14 +235,15 @@ void LidarOdometry::judge_prediction(const Located& located) {
   miss_m_ = std::max(missed_m, kReachFades * miss_m_);
 }
 
-void LidarOdometry::keep(const Scan& scan, const Located& located) {
-  const ScanFit& fit = located.fit;
-  const Pose motion = T_map_last_.inverse() * fit.T_map_sensor;
-  judge_prediction(located);
-  overlap_ += kOverlapGain * (fit.overlap - overlap_);
-  velocity_ = screw_of(motion) / seconds_between(last_ns_, scan.end_ns);
-  motion_.learn_bias(last_ns_, scan.end_ns, motion.q);
-  // The motion's error is that of both ends against the map.
+/// Follows a registration that fits far worse than usual: within a sharp turn it is about right, after a jump it is a place that looks alike. Neither goes into the map or is an answer.
+void LidarOdometry::waver(const Scan& scan, const Located& located) {
+  move_to(scan, located.fit);
+  first_.reset();
+  if (++missed_ >= options_.restart_scans) restart(scan);
+}
+
+/// The motion to a registered place: its error is that of both ends against the map.
+void LidarOdometry::move_to(const Scan& scan, const ScanFit& fit) {
   const Vec3 arm = fit.T_map_sensor.t - T_map_last_.t;
   path_ = carried_covariance(path_ + own_, arm) + fit.covariance;
   if (scan.planar) {
@@ -265,6 +256,16 @@ void LidarOdometry::keep(const Scan& scan, const Located& located) {
   own_ = fit.covariance;
   T_map_last_ = fit.T_map_sensor;
   last_ns_ = scan.end_ns;
+}
+
+void LidarOdometry::keep(const Scan& scan, const Located& located) {
+  const ScanFit& fit = located.fit;
+  const Pose motion = T_map_last_.inverse() * fit.T_map_sensor;
+  judge_prediction(located);
+  overlap_ += (overlap_ > 0.0 ? kOverlapGain : 1.0) * (fit.overlap - overlap_);
+  velocity_ = screw_of(motion) / seconds_between(last_ns_, scan.end_ns);
+  motion_.learn_bias(last_ns_, scan.end_ns, motion.q);
+  move_to(scan, fit);
   missed_ = 0;
   first_.reset();
   map_->add(located.surfels, T_map_last_, own_);
@@ -288,7 +289,10 @@ void LidarOdometry::miss(const Scan& scan, const Located& located) {
   T_map_last_ = guess;
   last_ns_ = scan.end_ns;
   miss_m_ = options_.scan_reach_m / kReachGrows;
-  if (++missed_ < options_.restart_scans && !first_) return;
+  if (++missed_ >= options_.restart_scans || first_) restart(scan);
+}
+
+void LidarOdometry::restart(const Scan& scan) {
   const std::uint64_t epoch = answer_.epoch + 1;
   begin_again(scan);
   if (answer_.has_pose) answer_.epoch = epoch;

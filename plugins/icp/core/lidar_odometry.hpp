@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "icp/core/plane_map.hpp"
+#include "icp/core/scan.hpp"
 #include "icp/core/scan_fit.hpp"
 #include "icp/core/scan_motion.hpp"
 #include "icp/core/scan_options.hpp"
 
 namespace hallway::icp {
-
-/// One scan: what its rays met, in the scanner's frame [m].
-struct Scan {
-  Points points;
-  std::vector<GridPlace> places;       ///< of each point's ray
-  std::vector<std::int64_t> times_ns;  ///< of each point; empty where they are not known
-  std::int64_t begin_ns = 0;
-  std::int64_t end_ns = 0;
-  bool planar = false;  ///< whether all rays are in the x-y plane
-};
 
 /// Totals since the start, and facts of the last scan.
 struct ScanCounters {
@@ -81,6 +72,9 @@ class LidarOdometry {
   bool accepted(const ScanFit& fit) const;
   bool certain(const ScanFit& fit) const;
   void keep(const Scan& scan, const Located& located);
+  void waver(const Scan& scan, const Located& located);
+  void move_to(const Scan& scan, const ScanFit& fit);
+  void restart(const Scan& scan);
   void miss(const Scan& scan, const Located& located);
   void judge_prediction(const Located& located);
 

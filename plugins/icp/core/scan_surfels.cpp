@@ -16,9 +16,6 @@ constexpr double kUneven_m = 0.02;     // of a surface that counts as flat
 constexpr double kMostChi2 = 2.5;      // of a ray's residual, with noise alone 1
 constexpr double kGrazing = 0.05;      // least cosine between normal and ray: less is told of by noise alone
 constexpr double kMostTilt_rad = 0.3;  // standard deviation of a normal
-constexpr double kGap = 1.02;          // of the widest gap between elevations: a row
-constexpr double kLeastRow_rad = 0.008;
-constexpr double kMostRow_rad = 0.1;
 constexpr std::size_t kMostWindows = 6000;
 
 /// Weighted sums over rays: direction d, 1/range.
@@ -125,34 +122,7 @@ bool fit_plane(const Sums& sums, bool planar, double share, Surfel& surfel) {
   return tilt2 <= kMostTilt_rad * kMostTilt_rad;
 }
 
-double azimuth_of(const Vec3& p) {
-  return std::atan2(p.y(), p.x());
-}
-
 }  // namespace
-
-std::vector<GridPlace> places_of(const Points& points) {
-  std::vector<GridPlace> places;
-  if (points.empty()) return places;
-  std::vector<double> elevations;
-  elevations.reserve(points.size());
-  for (const Vec3& p : points) elevations.push_back(std::atan2(p.z(), std::hypot(p.x(), p.y())));
-  std::vector<double> sorted = elevations;
-  std::sort(sorted.begin(), sorted.end());
-  double gap = 0.0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) gap = std::max(gap, sorted[i] - sorted[i - 1]);
-  const double step = std::clamp(kGap * gap, kLeastRow_rad, kMostRow_rad);
-  const double low = sorted.front() - 0.5 * step;
-  const auto rows = static_cast<std::uint32_t>((sorted.back() - low) / step) + 1;
-  const auto columns = std::clamp(static_cast<std::uint32_t>(points.size() / rows), 90u, 3600u);
-  places.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double turn = azimuth_of(points[i]) / (2.0 * M_PI) + 0.5;
-    places.push_back({static_cast<std::uint32_t>((elevations[i] - low) / step),
-                      std::min(columns - 1, static_cast<std::uint32_t>(turn * columns))});
-  }
-  return places;
-}
 
 std::vector<Surfel> surfels_of(const Points& points, std::span<const GridPlace> places, bool planar,
                                const RangeNoise& noise) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "icp/core/screw.hpp"
+#include "icp/core/scan.hpp"
 
 namespace hallway::icp {
 
@@ -19,16 +19,6 @@ struct RangeNoise {
     return noise_m * noise_m + far_m * far_m;
   }
 };
-
-/// Where a ray stands among those of its scan: rows are rings, columns are turned through.
-struct GridPlace {
-  std::uint32_t row = 0;
-  std::uint32_t column = 0;
-};
-
-/// Places for a scan that does not tell them: rows of even steps of elevation, wide enough that none between two rings is empty, and columns of even steps of azimuth. O(n log n).
-/// @param points  in the scanner's frame, as measured
-std::vector<GridPlace> places_of(const Points& points);
 
 /// A flat piece of surface as one scan sees it: the plane inverse . x = 1 in the scanner's frame.
 struct Surfel {
