@@ -116,6 +116,13 @@ constexpr const char* kWanderer = "wanderer";  // which drives
 constexpr const char* kSideways = "sideways";
 constexpr const char* kSteered = "steered";
 
+/// icp with the lidar, IMU and odometry of a rig, where else it has points.
+constexpr const char* kScans = "scans";
+
+bool takes_a_rig(const std::string& each) {
+  return each == kScans || each == "dead_reckoning";
+}
+
 bool obeys(const std::string& each) {
   return each == kWanderer || each == kSideways || each == kSteered;
 }
@@ -123,6 +130,7 @@ bool obeys(const std::string& each) {
 /// Where a plugin sees what it needs.
 fs::path scenario_of(const std::string& each) {
   if (each == kTwoCameras) return source_folder() / "maps/two_cameras.toml";
+  if (takes_a_rig(each)) return source_folder() / "maps/office_rig.toml";
   if (obeys(each)) return source_folder() / "maps/office_drive.toml";
   return source_folder() / (each == "slam_plane" ? "maps/many_planes.toml" : "maps/office.toml");
 }
@@ -141,6 +149,7 @@ class Hosts : public testing::TestWithParam<std::string> {
   }
   static std::string plugin() {
     if (GetParam() == kTwoCameras) return "slam_point";
+    if (GetParam() == kScans) return "icp";
     return GetParam() == kSideways || GetParam() == kSteered ? FIXTURES "/drives.so" : GetParam();
   }
   static std::string plugin_with_parameters() {
@@ -151,7 +160,10 @@ class Hosts : public testing::TestWithParam<std::string> {
     if (GetParam() == kSteered) return {"--set", "robot.drive.kind=ackermann"};
     return {};
   }
-  static std::string steps() { return std::to_string(sized(150, GetParam() == kTwoCameras ? 1010 : 2020)); }
+  static std::string steps() {
+    if (takes_a_rig(GetParam())) return std::to_string(sized(40, 1010));
+    return std::to_string(sized(150, GetParam() == kTwoCameras ? 1010 : 2020));
+  }
 
   void run(const std::string& name, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"run",
@@ -300,7 +312,7 @@ TEST_P(Hosts, FourThreads) {
 
 /// Every plugin that belongs to the program, one that drives robots of three kinds, and a rig. Each plugin that is added joins.
 std::vector<std::string> pipelines() {
-  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras, kSideways, kSteered};
+  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras, kScans, kSideways, kSteered};
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(PLUGINS, problem)) {
     if (entry.path().extension() == ".so") all.push_back(entry.path().stem());
