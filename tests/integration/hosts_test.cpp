@@ -23,8 +23,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// What plugins answer, as tables; those that a pipeline does not fill are in no folder.
-constexpr const char* kTables[] = {"trajectory.tum",   "landmarks.csv", "landmarks.ply", "submaps.csv",
-                                   "submap_poses.csv", "commands.csv",  "planes.csv",    "mapped_planes.csv"};
+constexpr const char* kTables[] = {"trajectory.tum", "landmarks.csv",     "landmarks.ply",
+                                   "submaps.csv",    "submap_poses.csv",  "commands.csv",
+                                   "planes.csv",     "mapped_planes.csv", "pose_times.csv"};
 
 std::string content(const fs::path& file) {
   return fs::exists(file) ? read_file(file) : "(not there)";
@@ -116,7 +117,7 @@ constexpr const char* kWanderer = "wanderer";  // which drives
 constexpr const char* kSideways = "sideways";
 constexpr const char* kSteered = "steered";
 
-/// icp with the lidar, IMU and odometry of a rig, where else it has points.
+/// icp with the lidar, IMU and odometry of a rig, where else it has points. Scans end between frames, and its poses are of then.
 constexpr const char* kScans = "scans";
 
 bool takes_a_rig(const std::string& each) {
@@ -157,6 +158,7 @@ class Hosts : public testing::TestWithParam<std::string> {
   }
   static std::vector<std::string> settings() {
     if (GetParam() == kSideways) return {"--set", "robot.drive.kind=omnidirectional"};
+    if (GetParam() == kScans) return {"--set", "sensor.lidar.phase_s=0.03"};
     if (GetParam() == kSteered) return {"--set", "robot.drive.kind=ackermann"};
     return {};
   }
@@ -272,7 +274,9 @@ TEST_P(Hosts, ARobotAtTheOtherEndOfANetwork) {
 TEST_P(Hosts, ServingScoresThePathThatCameBack) {
   rehearse("far", 0.0);
   if (HasFatalFailure()) return;
-  EXPECT_EQ(content(out("run") / "trajectory.tum"), content(out("far_served") / "trajectory.tum"));
+  for (const char* table : {"trajectory.tum", "pose_times.csv"})
+    EXPECT_EQ(content(out("run") / table), content(out("far_served") / table)) << table;
+  EXPECT_EQ(fs::exists(out("run") / "pose_times.csv"), GetParam() == kScans);
   const Json here = Json::parse(read_file(out("run") / "metrics.json"));
   const Json there = Json::parse(read_file(out("far_served") / "metrics.json"));
   for (const char* member : {"iterations", "lost_iterations", "position_final_m", "rpe"})

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "geom/arrays.hpp"
 #include "record/answer_tables.hpp"
 #include "run/sources/abi_pose.hpp"
+#include "run/sources/true_pose.hpp"
 
 namespace hallway::run {
 
@@ -16,9 +16,8 @@ std::optional<Pose> truth_at(const SourceFrame& frame, std::int64_t t_ns) {
   for (std::uint32_t k = 0; k < frame.n_samples(); ++k) {
     if (frame.sample(k).t_end_ns != t_ns) continue;
     const auto truth = std::ranges::find(frame.sample_truths, k, &log::SampleTruth::sample);
-    if (truth == frame.sample_truths.end() || !truth->position_m) continue;
-    const auto& [w, x, y, z] = truth->orientation;
-    return Pose{Quat(w, x, y, z), to_vec3(*truth->position_m)};
+    if (truth == frame.sample_truths.end()) continue;
+    if (const std::optional<Pose> pose = true_pose_of(*truth)) return pose;
   }
   return std::nullopt;
 }

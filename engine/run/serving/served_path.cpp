@@ -7,6 +7,7 @@
 #include "eval/evaluator.hpp"
 #include "eval/metrics_json.hpp"
 #include "log/command_file.hpp"
+#include "log/pose_times.hpp"
 #include "log/row_file.hpp"
 #include "log/tum.hpp"
 #include "record/answer_tables.hpp"
@@ -15,6 +16,7 @@
 #include "run/feed/drive_record.hpp"
 #include "run/scoring/truth_of.hpp"
 #include "run/sources/abi_pose.hpp"
+#include "run/sources/true_pose.hpp"
 
 namespace hallway::run {
 namespace {
@@ -28,16 +30,23 @@ eval::Truth path_truth(const Source& source) {
   return truth;
 }
 
+std::array<double, 7> numbers_of(const Pose& pose) {
+  return {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w(), pose.t.x(), pose.t.y(), pose.t.z()};
+}
+
 }  // namespace
 
 void ServedPath::add_frame(const SourceFrame& frame) {
   Frame added{.t_ns = frame.t_ns(),
+              .first_end = ends_.size(),
               .has_truth = frame.T_world_body.has_value(),
               .orientation_known = frame.orientation_known};
-  if (frame.T_world_body) {
-    const Quat& q = frame.T_world_body->q;
-    const Vec3& t = frame.T_world_body->t;
-    added.T_world_body = {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
+  if (frame.T_world_body) added.T_world_body = numbers_of(*frame.T_world_body);
+  for (const log::SampleTruth& truth : frame.sample_truths) {
+    if (const std::optional<Pose> pose = true_pose_of(truth)) {
+      ends_.push_back({frame.sample(truth.sample).t_end_ns, numbers_of(*pose)});
+      ++added.n_ends;
+    }
   }
   frames_.push_back(added);
 }
@@ -48,6 +57,7 @@ void ServedPath::add_answer(const link::Answer& answer) {
   if (answer.pose) {
     frame.has_pose = answer.pose->valid;
     frame.T_map_body = answer.pose->T_map_body;
+    frame.pose_t_ns = answer.pose->t_ns;
   }
   if (answer.command) {
     frame.has_command = true;
@@ -56,21 +66,41 @@ void ServedPath::add_answer(const link::Answer& answer) {
   frames_.set(answer.sequence, frame);
 }
 
+/// Where the body truly was at the time of the answered pose; empty where that is not known.
+std::optional<Pose> ServedPath::true_pose(const Frame& frame) const {
+  const auto pose_from = [](const TruePose& numbers) {
+    return Pose{Quat(numbers.data()), Vec3(numbers.data() + 4)};
+  };
+  if (!frame.has_pose || frame.pose_t_ns == 0 || frame.pose_t_ns == frame.t_ns) {
+    if (!frame.has_truth) return std::nullopt;
+    return pose_from(frame.T_world_body);
+  }
+  for (std::uint64_t i = frame.first_end; i < frame.first_end + frame.n_ends; ++i) {
+    if (const SampleEnd end = ends_[i]; end.t_ns == frame.pose_t_ns) return pose_from(end.T_world_body);
+  }
+  return std::nullopt;
+}
+
 eval::Metrics ServedPath::write(const Source& source, const std::optional<sim::DriveCounts>& drive) const {
   eval::Evaluator evaluator(path_truth(source), folder_);
   log::RowFile trajectory(folder_ / record::files::kTrajectory, ' ', {});
   std::optional<log::CommandFile> commands;
+  std::optional<log::RowFile> pose_times;
   SpillList<Frame>::Reader frames(frames_);
   std::uint32_t k = 0;
   for (const Frame* frame = frames.next(); frame != nullptr; frame = frames.next(), ++k) {
     eval::Iteration iteration{};
-    if (frame->has_truth)
-      iteration.T_world_body = Pose{Quat(frame->T_world_body.data()), Vec3(frame->T_world_body.data() + 4)};
-    iteration.t_s = static_cast<double>(frame->t_ns) * 1e-9;
+    iteration.T_world_body = true_pose(*frame);
+    const bool is_other_time = frame->has_pose && frame->pose_t_ns != 0;
+    iteration.t_s = static_cast<double>(is_other_time ? frame->pose_t_ns : frame->t_ns) * 1e-9;
     iteration.orientation_known = frame->orientation_known;
     if (frame->has_pose) {
       iteration.T_map_body = pose_of(frame->T_map_body);
       log::add_row(trajectory.next_row(), record::stamped_pose(frame->t_ns, frame->T_map_body));
+    }
+    if (is_other_time) {
+      if (!pose_times) pose_times.emplace(folder_ / record::files::kPoseTimes, ',', log::kPoseTimeColumns);
+      log::add_row(pose_times->next_row(), log::IterationPoseTime{.iteration = k, .t_ns = frame->pose_t_ns});
     }
     evaluator.add(iteration);
     if (!frame->has_command) continue;
@@ -79,6 +109,7 @@ eval::Metrics ServedPath::write(const Source& source, const std::optional<sim::D
   }
   trajectory.close();
   if (commands) commands->close();
+  if (pose_times) pose_times->close();
   eval::Metrics metrics = evaluator.metrics({}, std::nullopt);
   nlohmann::ordered_json document = eval::to_json(metrics);
   if (drive) document["drive"] = to_json(*drive);
