@@ -20,9 +20,10 @@ constexpr double kPlanar_rad = 0.001;
 constexpr double kUnseen_m = 0.01;  // and how far the scanner may have left it, since nothing tells
 constexpr double kUnseen_rad = 0.02;
 constexpr double kSurelyFound = 0.9;  // overlap that ends a search
-constexpr double kSearched = 0.04;    // variance of a prediction that is another turn [m^2, rad^2]
-constexpr double kUsual = 0.8;        // of the usual overlap: below it a prediction may have been wrong
-constexpr double kDoubtful = 0.7;     // likewise: below it the place may be another
+constexpr double kBetter = 0.1;  // of overlap: by which a searched turn must fit better than the prediction
+constexpr double kSearched = 0.04;  // variance of a prediction that is another turn [m^2, rad^2]
+constexpr double kUsual = 0.8;      // of the usual overlap: below it a prediction may have been wrong
+constexpr double kDoubtful = 0.7;   // likewise: below it the place may be another
 constexpr double kOverlapGain = 0.2;
 constexpr double kForgetAfter_m = 5.0;  // way between two looks at what is far
 constexpr double kReachGrows = 3.0;     // reach over the error of predictions
@@ -85,6 +86,7 @@ void LidarOdometry::start(const Scan& scan, const std::vector<Surfel>& surfels) 
   map_->add(surfels, Pose(), Mat6::Zero());
   T_map_last_ = T_map_cleared_ = Pose();
   own_.setZero();
+  doubt_.setZero();
   path_.setZero();
   last_ns_ = scan.end_ns;
   missed_ = 0;
@@ -160,7 +162,8 @@ LidarOdometry::Located LidarOdometry::locate_with(const Scan& scan, Deskew sourc
   located.expected = expected_of(scan, source, velocity);
   if (turn_rad != 0.0) {
     located.expected.motion = turned_by(located.expected.motion, turn_rad);
-    located.expected.covariance += kSearched * Mat6::Identity();
+    for (const int i : {0, 1, 2, 3, 4, 5})
+      if (!scan.planar || i < 2 || i == 5) located.expected.covariance(i, i) += kSearched;
   }
   located.surfels = surfels_of_straight(scan, source, velocity);
   const Pose guess = T_map_last_ * located.expected.motion;
@@ -190,7 +193,7 @@ LidarOdometry::Located LidarOdometry::locate(const Scan& scan, Deskew source) {
       options_.scan_turn_rad > 0.0) {
     ++answer_.counters.searches;
     Located found = search_turns(scan, source, dt);
-    if (accepted(found.fit) && found.fit.overlap > located.fit.overlap) located = std::move(found);
+    if (accepted(found.fit) && found.fit.overlap > located.fit.overlap + kBetter) located = std::move(found);
   }
   for (int pass = 1; pass < kPasses && source != Deskew::odometry; ++pass) {
     if (!accepted(located.fit)) break;
@@ -212,7 +215,11 @@ LidarOdometry::Located LidarOdometry::locate(const Scan& scan, Deskew source) {
       covariance += doubt_of_skew(T_map_last_.inverse() * located.fit.T_map_sensor);
     if (!measured && !first_)
       covariance += doubt_of_change(located.fit.T_map_sensor.q, dt * (velocity_ - before), turns);
-    covariance += doubt_of_overlap(located.fit.overlap, overlap_, measured, turns || measured);
+    located.doubt = doubt_of_overlap(located.fit.overlap, overlap_,
+                                     !measured                ? Measured::nothing
+                                     : motion_.measures_all() ? Measured::all
+                                                              : Measured::level,
+                                     turns || measured);
   }
   if (!accepted(located.fit)) velocity_ = before;
   return located;
@@ -222,9 +229,9 @@ bool LidarOdometry::accepted(const ScanFit& fit) const {
   return fit.converged && fit.overlap >= options_.scan_overlap;
 }
 
-bool LidarOdometry::certain(const ScanFit& fit) const {
-  return largest_sigma(fit.covariance.topLeftCorner<3, 3>()) <= options_.max_sigma_m &&
-         largest_sigma(fit.covariance.bottomRightCorner<3, 3>()) <= options_.max_sigma_rad;
+bool LidarOdometry::certain(const Mat6& covariance) const {
+  return largest_sigma(covariance.topLeftCorner<3, 3>()) <= options_.max_sigma_m &&
+         largest_sigma(covariance.bottomRightCorner<3, 3>()) <= options_.max_sigma_rad;
 }
 
 /// The reach follows how far predictions were wrong.
@@ -237,15 +244,16 @@ void LidarOdometry::judge_prediction(const Located& located) {
 
 /// Follows a registration that fits far worse than usual: within a sharp turn it is about right, after a jump it is a place that looks alike. Neither goes into the map or is an answer.
 void LidarOdometry::waver(const Scan& scan, const Located& located) {
-  move_to(scan, located.fit);
+  move_to(scan, located);
   first_.reset();
   if (++missed_ >= options_.restart_scans) restart(scan);
 }
 
 /// The motion to a registered place: its error is that of both ends against the map.
-void LidarOdometry::move_to(const Scan& scan, const ScanFit& fit) {
+void LidarOdometry::move_to(const Scan& scan, const Located& located) {
+  const ScanFit& fit = located.fit;
   const Vec3 arm = fit.T_map_sensor.t - T_map_last_.t;
-  path_ = carried_covariance(path_ + own_, arm) + fit.covariance;
+  path_ = carried_covariance(path_ + own_ + doubt_, arm) + fit.covariance + located.doubt;
   if (scan.planar) {
     Vec6 unseen = Vec6::Zero();
     unseen(2) = kUnseen_m * kUnseen_m;
@@ -254,6 +262,7 @@ void LidarOdometry::move_to(const Scan& scan, const ScanFit& fit) {
   }
   path_ = 0.5 * (path_ + path_.transpose().eval());
   own_ = fit.covariance;
+  doubt_ = located.doubt;
   T_map_last_ = fit.T_map_sensor;
   last_ns_ = scan.end_ns;
 }
@@ -265,7 +274,7 @@ void LidarOdometry::keep(const Scan& scan, const Located& located) {
   overlap_ += (overlap_ > 0.0 ? kOverlapGain : 1.0) * (fit.overlap - overlap_);
   velocity_ = screw_of(motion) / seconds_between(last_ns_, scan.end_ns);
   motion_.learn_bias(last_ns_, scan.end_ns, motion.q);
-  move_to(scan, fit);
+  move_to(scan, located);
   missed_ = 0;
   first_.reset();
   map_->add(located.surfels, T_map_last_, own_);
@@ -273,7 +282,7 @@ void LidarOdometry::keep(const Scan& scan, const Located& located) {
     map_->forget_beyond(T_map_last_.t, options_.map_range_m);
     T_map_cleared_ = T_map_last_;
   }
-  answer_.has_pose = certain(fit);
+  answer_.has_pose = certain(fit.covariance + located.doubt);
   answer_.T_map_scanner = T_map_last_;
   answer_.covariance = path_;
 }

@@ -58,6 +58,7 @@ class LidarOdometry {
     ScanFit fit;
     Expected expected;
     std::vector<Surfel> surfels;
+    Mat6 doubt = Mat6::Zero();  // of the answer beyond the fit's covariance; no part of the map's
   };
 
   RangeNoise noise() const;
@@ -70,10 +71,10 @@ class LidarOdometry {
   ScanFit fit(const std::vector<Surfel>& surfels, const Pose& guess, const Mat6& covariance) const;
   Located search_turns(const Scan& scan, Deskew source, double dt) const;
   bool accepted(const ScanFit& fit) const;
-  bool certain(const ScanFit& fit) const;
+  bool certain(const Mat6& covariance) const;
   void keep(const Scan& scan, const Located& located);
   void waver(const Scan& scan, const Located& located);
-  void move_to(const Scan& scan, const ScanFit& fit);
+  void move_to(const Scan& scan, const Located& located);
   void restart(const Scan& scan);
   void miss(const Scan& scan, const Located& located);
   void judge_prediction(const Located& located);
@@ -84,6 +85,7 @@ class LidarOdometry {
   std::optional<Scan> first_;     // while its own motion is not known
   Pose T_map_last_;               // at the end of the last scan, as registered or predicted
   Mat6 own_ = Mat6::Zero();       // covariance of T_map_last_ against the map
+  Mat6 doubt_ = Mat6::Zero();     // as in Located, of the last scan
   Mat6 path_ = Mat6::Zero();      // and since the first scan
   Vec6 velocity_ = Vec6::Zero();  // scanner's frame, per second
   double overlap_ = 0.0;          // usual of late

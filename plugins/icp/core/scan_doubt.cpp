@@ -9,7 +9,8 @@ namespace {
 constexpr double kUnsteady = 0.5;  // of a change of velocity
 constexpr double kSkew = 0.3;      // of the motion over a scan
 constexpr double kNoFit = 0.3;     // standard deviation where no surfel fits [m, rad]
-constexpr double kUsual = 0.8;     // of the usual overlap: what new surroundings leave of it
+// Of the usual overlap, by what is measured: the loss that new surroundings make, too.
+constexpr double kUsualLoss[] = {0.0, 0.1, 0.2};
 
 Mat6 even(double sigma_m, double sigma_rad) {
   Vec6 variances;
@@ -36,9 +37,9 @@ Mat6 doubt_of_skew(const Pose& motion) {
   return even(kSkew * motion.t.norm(), kSkew * rotation_vector(motion.q).norm());
 }
 
-Mat6 doubt_of_overlap(double overlap, double usual, bool steady, bool turns) {
+Mat6 doubt_of_overlap(double overlap, double usual, Measured measured, bool turns) {
   const double loss = 1.0 - overlap / std::max(usual, overlap);
-  if (!(loss > (steady ? 1.0 - kUsual : 0.0))) return Mat6::Zero();
+  if (!(loss > kUsualLoss[static_cast<int>(measured)])) return Mat6::Zero();
   return even(kNoFit * loss, turns ? kNoFit * loss : 0.0);
 }
 

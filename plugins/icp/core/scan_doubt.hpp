@@ -5,6 +5,9 @@
 
 namespace hallway::icp {
 
+/// What sensors of motion tell of it: nothing of ways, those on level ground, or all.
+enum class Measured { nothing, level, all };
+
 /// What a registration's own covariance knows nothing of: that the scanner moved within the scan otherwise than the scan was deskewed by. Covariances to add, of errors as in ScanFit.
 /// The shares are bounds found on simulated scans, not derived.
 
@@ -19,7 +22,7 @@ Mat6 doubt_of_change(const Quat& q_map_scanner, const Vec6& changed, bool turns)
 Mat6 doubt_of_skew(const Pose& motion);
 
 /// Of surfels that fit nothing where they usually do: a motion that was not steady, or a place that is another. @param overlap  shares of surfels that fit, now and usually
-/// @param steady  whether the motion within the scan was measured: then a small loss tells nothing
-Mat6 doubt_of_overlap(double overlap, double usual, bool steady, bool turns);
+/// @param measured  of the motion within the scan: the more, the less a small loss tells
+Mat6 doubt_of_overlap(double overlap, double usual, Measured measured, bool turns);
 
 }  // namespace hallway::icp

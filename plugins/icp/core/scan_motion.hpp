@@ -45,6 +45,9 @@ class ScanMotion {
   /// The motion from one time to the other on that path, and how well it is known.
   Expected expected(Deskew source, std::int64_t from_ns, std::int64_t to_ns, const Vec6& velocity) const;
 
+  /// Whether gyroscopes turned the odometry of the last source(): wheels tell nothing of a slope.
+  bool measures_all() const { return turns_by_rates_; }
+
   /// What the errors of that path within a scan add to the pose at its end, roughly: those of the source's last reading; scanner's frame.
   Mat6 deskew_covariance(Deskew source) const;
 
