@@ -17,6 +17,7 @@
 #include "map/writer.hpp"
 #include "map_text.hpp"
 #include "support/brushes.hpp"
+#include "support/data.hpp"
 #include "support/errors.hpp"
 #include "support/fixture.hpp"
 
