@@ -48,4 +48,8 @@ for scenario in em_corridor em_floor; do
   "$hallway" run "$here/../maps/$scenario.toml" --out "$work/$scenario" --quiet
   "$hallway" render "$work/$scenario" --view panels --size 1280x900 --out "$here/$scenario.png"
 done
+# The scan of a lidar in a corner, deskewed by the true motion: rings by height on walls, floor and ceiling.
+"$hallway" run "$here/../maps/office_rig.toml" --steps 160 --out "$work/office_rig" --quiet
+"$hallway" render "$work/office_rig" --iteration 151 --view perspective --eye -8,-17,19 --target 13,5,0 --size 1120x640 \
+  --hide all --show map,body,seen,deskewed --out "$here/scan.png"
 ls -l "$here"/*.png
