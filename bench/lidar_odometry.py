@@ -58,6 +58,8 @@ CASES = {
     "2 m/s": case(speed=2.0),
     "3 m/s": case(speed=3.0),
     "motion, 0.5 m/s": case("motion", speed=0.5, rig=""),
+    "unskewed": case(more="skew = false"),
+    "unskewed, motion": case("motion", rig="", more="skew = false"),
     "noise x 0": case(more="noise_m = 0"),
     "noise x 2": case(more="noise_m = 0.04"),
     "noise x 5": case(more="noise_m = 0.1"),
