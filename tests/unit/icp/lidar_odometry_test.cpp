@@ -36,7 +36,7 @@ Scan scan_of(const Box& box, bool open, int rings, int number, const Path& T_at,
   scan.begin_ns = number * kScan_ns;
   scan.end_ns = scan.begin_ns + kScan_ns;
   scan.planar = rings == 1;
-  constexpr int kColumns = 900;
+  constexpr int kColumns = 600;
   for (int column = 0; column < kColumns; ++column) {
     const std::int64_t t_ns = scan.begin_ns + kScan_ns * column / kColumns;
     const Pose T = T_at(1e-9 * static_cast<double>(t_ns));
@@ -131,13 +131,15 @@ TEST(ScanFit, FindsTheMotionFromAGuessFarOff) {
 
 TEST(LidarOdometry, SaysThatAPlainCorridorLeavesItsMotionOpen) {
   // Walls, floor and ceiling without an end: nothing tells the way along them. What is told nevertheless is within its own uncertainty.
-  LidarOdometry odometry{ScanOptions()};
+  ScanOptions options;
+  options.max_sigma_m = 0.25;
+  LidarOdometry odometry(options);
   clouds::Random random(5);
   const Box corridor{{0, -1, -1}, {0, 1, 1.7}};
   const auto path = [](double t_s) { return clouds::pose({1.0 * t_s, 0.0, 0.0}, 0.0); };
   int told = 0;
   double sigma_m = 0.0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 25; ++i) {
     const ScanAnswer& answer = odometry.process(scan_of(corridor, true, 16, i, path, random));
     if (i == 0 || !answer.has_pose || answer.epoch > 0) continue;
     told = i;
@@ -145,8 +147,8 @@ TEST(LidarOdometry, SaysThatAPlainCorridorLeavesItsMotionOpen) {
     sigma_m = std::sqrt(answer.covariance(0, 0));
     EXPECT_LT(std::abs(answer.T_map_scanner.t.x() - 0.1 * i), 4.0 * sigma_m) << i;
   }
-  EXPECT_GT(sigma_m, 0.2);
-  EXPECT_LT(told, 50);  // from then on it says that it does not know
+  EXPECT_GT(sigma_m, 0.1);
+  EXPECT_LT(told, 20);  // from then on it says that it does not know
 }
 
 TEST(LidarOdometry, BridgesACorridorByOdometryWithItsUncertainty) {
@@ -168,9 +170,10 @@ TEST(LidarOdometry, BridgesACorridorByOdometryWithItsUncertainty) {
 TEST(LidarOdometry, AJumpIsNoMotion) {
   // The room looks the same after half a turn, so not that far. Carried to another place of it within a scan, while odometry says that it stands: it says that it is lost or begins anew, or it is right within its covariance.
   for (const bool gives_odometry : {true, false}) {
-    for (const double turn : {0.0, 0.8, 1.6}) {
+    for (const double turn : {0.0, 1.6}) {
       ScanOptions options;
       options.restart_scans = 5;
+      options.scan_turn_rad = 0.2;
       LidarOdometry odometry(options);
       clouds::Random random(11);
       const auto path = [&](double t_s) { return t_s < 0.95 ? Pose() : clouds::pose({3.0, 1.5, 0.0}, turn); };
