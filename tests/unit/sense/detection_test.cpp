@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "sense/face_sensor.hpp"
@@ -303,7 +304,8 @@ TEST(PlaneDetection, FacesAreMissedAndFalseAsDeclared) {
 
 TEST(DetectionSpec, RefusesWhatIsOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const SpecCheck check("eyes");
+  const std::string name = "eyes";  // which the check refers to
+  const SpecCheck check(name);
   for (const double bad : {-0.1, 1.5, nan}) {
     const auto error = test::error_of([&] { check_detection(check, {.dropout = bad}); });
     ASSERT_TRUE(error) << bad;
