@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -168,6 +169,11 @@ void run(const std::string& file) {
 }  // namespace hallway
 
 int main(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) hallway::run(argv[i]);
+  try {
+    for (int i = 1; i < argc; ++i) hallway::run(argv[i]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 3;
+  }
   return 0;
 }

@@ -5,13 +5,24 @@
 # docs/architecture.md and whatever its headers expose; PRIVATE_LINKS are what only its sources use. APART: see hallway_compile_together.
 #
 # With HALLWAY_PRECOMPILE the headers that nearly every source includes are read once. They are no substitute for includes: the clang preset builds
-# without.
-option(HALLWAY_PRECOMPILE "Precompile Eigen and the common standard headers" ON)
+# all but the tests without.
+set(HALLWAY_PRECOMPILE ON CACHE STRING "Precompile Eigen and the common standard headers: ON, OFF, TESTS for the tests alone")
+
+# hallway_is_on(<setting> <target> <result>): whether a setting that is ON, OFF or TESTS holds for the target.
+function(hallway_is_on setting target result)
+  if("${${setting}}" STREQUAL "TESTS")
+    string(REGEX MATCH "^test_|_test_precompiled$" on ${target})
+  else()
+    set(on ${${setting}})
+  endif()
+  set(${result} "${on}" PARENT_SCOPE)
+endfunction()
 
 # hallway_precompile(<target> LIBRARY|EXECUTABLE …headers [LINKS …]): the headers as one precompiled header that other targets of that kind may reuse (the
 # two differ in how they address code: -fPIC and -fPIE). LINKS: the libraries that it and those targets link; by default what nearly all link.
 function(hallway_precompile target kind)
-  if(NOT HALLWAY_PRECOMPILE OR HALLWAY_FUZZ)
+  hallway_is_on(HALLWAY_PRECOMPILE ${target} precompile)
+  if(NOT precompile OR HALLWAY_FUZZ)
     return()
   endif()
   cmake_parse_arguments(arg "" "" "LINKS" ${ARGN})
@@ -79,12 +90,13 @@ function(hallway_compile_plainly target)
 endfunction()
 
 # hallway_compile_together(<target> [APART a.cpp …]): up to eight sources are read as one, so that the templates that they share are made once. It is no
-# substitute for includes either: the clang preset compiles each by itself. APART names sources that stand alone, because they define names of their own that
-# others define too.
-option(HALLWAY_TOGETHER "Compile several sources of a target at once" ON)
+# substitute for includes either: the clang preset compiles each by itself, but for the tests. APART names sources that stand alone, because they define
+# names of their own that others define too.
+set(HALLWAY_TOGETHER ON CACHE STRING "Compile several sources of a target at once: ON, OFF, TESTS for the tests alone")
 function(hallway_compile_together target)
   cmake_parse_arguments(arg "" "" "APART" ${ARGN})
-  if(HALLWAY_TOGETHER AND TARGET ${target})
+  hallway_is_on(HALLWAY_TOGETHER ${target} together)
+  if(together AND TARGET ${target})
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     if(arg_APART)
       set_source_files_properties(${arg_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

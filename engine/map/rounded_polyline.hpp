@@ -6,6 +6,7 @@
 
 #include "geometry/se3.hpp"
 #include "map/curve_point.hpp"
+#include "map/polyline_pieces.hpp"
 
 namespace hallway::map {
 
@@ -16,31 +17,23 @@ class RoundedPolyline {
   /// @param corner_radius_m  greater than 0
   RoundedPolyline(std::span<const Vec3> waypoints, bool closed, double corner_radius_m);
 
-  double length_m() const { return length_m_; }
-  bool closed() const { return closed_; }
+  double length_m() const { return pieces_.length_m(); }
+  bool closed() const { return pieces_.closed(); }
   /// T_world_body. Distance 0 is the first waypoint; where a closed path has a corner there, the end of that corner's arc.
   Pose at(double distance_m) const;
   /// The same point with derivatives. Where an arc begins or ends the curvature jumps.
   CurvePoint point(double distance_m, CurveSide side) const;
   /// Where it does, ascending, within [0, length]; of an open path with both ends.
-  std::vector<double> jumps_m() const;
+  std::vector<double> jumps_m() const { return pieces_.joints_m(); }
 
  private:
-  /// A straight line, or an arc where `radius_m` is positive.
-  struct Piece {
-    double begin_m = 0.0;  ///< distance from the start of the path
-    double length_m = 0.0;
-    Vec3 start = Vec3::Zero();
-    Vec3 direction = Vec3::UnitX();  ///< at its start
-    Vec3 inward = Vec3::Zero();      ///< from the start towards the arc's centre, unit length
-    double radius_m = 0.0;
+  struct Arc {
+    double radius_m;
+    double turn;  ///< radians
+    double length_m() const { return radius_m * turn; }
   };
 
-  void append(Piece piece);
-
-  std::vector<Piece> pieces_;
-  double length_m_ = 0.0;
-  bool closed_;
+  PolylinePieces<Arc> pieces_;
 };
 
 }  // namespace hallway::map

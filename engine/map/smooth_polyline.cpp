@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "map/gauss_legendre.hpp"
-#include "map/polyline_corners.hpp"
 
 namespace hallway::map {
 namespace {
@@ -50,53 +48,14 @@ CornerBlend::Heading CornerBlend::heading(double along_m) const {
 }
 
 SmoothPolyline::SmoothPolyline(std::span<const Vec3> waypoints, bool closed, double corner_radius_m)
-    : closed_(closed) {
-  const std::size_t count = waypoints.size();
-  const PolylineCorners corners = measure_corners(waypoints, closed, corner_radius_m);
-  for (std::size_t i = 0; i < corners.directions.size(); ++i) {
-    const std::size_t next = (i + 1) % count;
-    const Vec3& direction = corners.directions[i];
-    Piece line;
-    line.start = waypoints[i] + direction * corners.trims[i];
-    line.direction = direction;
-    line.length_m = std::max(corners.lengths[i] - corners.trims[i] - corners.trims[next], 0.0);
-    append(std::move(line));
-    if (corners.turns[next] == 0.0) continue;
-    const Vec3& after = corners.directions[next];
-    Piece corner;
-    corner.start = waypoints[next] - direction * corners.trims[next];
-    corner.direction = direction;
-    corner.inward = (after - direction * direction.dot(after)).normalized();
-    corner.blend = std::make_shared<const CornerBlend>(corners.turns[next], corners.trims[next]);
-    corner.length_m = corner.blend->length_m();
-    append(std::move(corner));
-  }
-}
-
-void SmoothPolyline::append(Piece piece) {
-  piece.begin_m = length_m_;
-  length_m_ += piece.length_m;
-  pieces_.push_back(std::move(piece));
-}
-
-std::vector<double> SmoothPolyline::jumps_m() const {
-  std::vector<double> jumps;
-  for (const Piece& piece : pieces_) jumps.push_back(piece.begin_m);
-  jumps.push_back(length_m_);
-  jumps.erase(std::unique(jumps.begin(), jumps.end()), jumps.end());
-  return jumps;
-}
+    : pieces_(waypoints, closed, corner_radius_m,
+              [](double turn, double trim_m) { return CornerBlend(turn, trim_m); }) {}
 
 CurvePoint SmoothPolyline::point(double distance_m) const {
-  const double distance = distance_within(distance_m, length_m_, closed_);
-  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), distance,
-                                      [](double value, const Piece& piece) { return value < piece.begin_m; });
-  const Piece& piece = *std::prev(after);
-  const double along = distance - piece.begin_m;
-  if (piece.blend == nullptr)
-    return {.position = piece.start + along * piece.direction, .tangent = piece.direction};
-  const Vec2 place = piece.blend->position(along);
-  const CornerBlend::Heading heading = piece.blend->heading(along);
+  const auto [piece, along] = pieces_.at(distance_m);
+  if (!piece.corner) return {.position = piece.start + along * piece.direction, .tangent = piece.direction};
+  const Vec2 place = piece.corner->position(along);
+  const CornerBlend::Heading heading = piece.corner->heading(along);
   const double c = std::cos(heading.angle), s = std::sin(heading.angle);
   const Vec3 tangent = c * piece.direction + s * piece.inward;
   const Vec3 normal = c * piece.inward - s * piece.direction;

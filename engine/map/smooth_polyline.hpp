@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "geometry/se3.hpp"
 #include "map/curve_point.hpp"
+#include "map/polyline_pieces.hpp"
 
 namespace hallway::map {
 
@@ -46,31 +46,17 @@ class SmoothPolyline {
   /// @param corner_radius_m  of the arcs, greater than 0
   SmoothPolyline(std::span<const Vec3> waypoints, bool closed, double corner_radius_m);
 
-  double length_m() const { return length_m_; }
-  bool closed() const { return closed_; }
+  double length_m() const { return pieces_.length_m(); }
+  bool closed() const { return pieces_.closed(); }
   /// T_world_body. Distance 0 is the first waypoint; where a closed path has a corner there, the end of that corner's curve.
   Pose at(double distance_m) const;
   /// The same point with derivatives. The position is right to 1e-12 of the corner's size.
   CurvePoint point(double distance_m) const;
   /// Where a higher derivative jumps, ascending: where corners begin and end; the ends of the path too.
-  std::vector<double> jumps_m() const;
+  std::vector<double> jumps_m() const { return pieces_.joints_m(); }
 
  private:
-  /// A straight line, or a corner.
-  struct Piece {
-    double begin_m = 0.0;
-    double length_m = 0.0;
-    Vec3 start = Vec3::Zero();
-    Vec3 direction = Vec3::UnitX();  ///< at its start
-    Vec3 inward = Vec3::Zero();      ///< of a corner: unit, across the direction, to the side of the turn
-    std::shared_ptr<const CornerBlend> blend{};
-  };
-
-  void append(Piece piece);
-
-  std::vector<Piece> pieces_;
-  double length_m_ = 0.0;
-  bool closed_;
+  PolylinePieces<CornerBlend> pieces_;
 };
 
 }  // namespace hallway::map

@@ -14,6 +14,7 @@ class SpecCheck {
  public:
   /// Keeps a reference to `sensor`, its name, which may not be empty.
   explicit SpecCheck(const std::string& sensor);
+  explicit SpecCheck(const std::string&&) = delete;
 
   /// Above 0 and up to 2 pi.
   void angle(const char* member, double radians) const;

@@ -11,9 +11,16 @@
 
 namespace hallway::sim {
 
+/// A robot that its path moves. It meets nothing, and has no wheels.
+class MotionOnPath : public Motion {
+ public:
+  std::vector<sense::BumpContact> contacts_in(std::int64_t, std::int64_t) const final { return {}; }
+  std::vector<double> wheel_travel_at(std::int64_t) const final { return {}; }
+};
+
 /// A robot that its path moves, at constant speed from time 0 on until the path ends or an obstacle stops it, where it stands from one moment to the next.
-/// It meets nothing, and has no wheels. Its acceleration jumps where the path's curvature does: at the begin and the end of a corner's arc.
-class PathMotion final : public Motion {
+/// Its acceleration jumps where the path's curvature does: at the begin and the end of a corner's arc.
+class PathMotion final : public MotionOnPath {
  public:
   /// Keeps a reference to the path.
   /// @param step_length_m  metres of path from frame to frame, from 0
@@ -26,8 +33,6 @@ class PathMotion final : public Motion {
   Pose pose_at(std::int64_t t_ns) const override;
   sense::Kinematics kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const override;
   std::vector<double> breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const override;
-  std::vector<sense::BumpContact> contacts_in(std::int64_t, std::int64_t) const override { return {}; }
-  std::vector<double> wheel_travel_at(std::int64_t) const override { return {}; }
 
  private:
   double way_at(std::int64_t t_ns) const;
@@ -40,7 +45,7 @@ class PathMotion final : public Motion {
 };
 
 /// A robot that its path moves by a SmoothPace. On a path whose curvature has a continuous slope no member of Kinematics jumps, ever.
-class SmoothPathMotion final : public Motion {
+class SmoothPathMotion final : public MotionOnPath {
  public:
   /// Keeps a reference to the path.
   SmoothPathMotion(const map::Path& path, const SmoothPace& pace) : path_(path), pace_(pace) {}
@@ -48,8 +53,6 @@ class SmoothPathMotion final : public Motion {
   Pose pose_at(std::int64_t t_ns) const override;
   sense::Kinematics kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const override;
   std::vector<double> breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const override;
-  std::vector<sense::BumpContact> contacts_in(std::int64_t, std::int64_t) const override { return {}; }
-  std::vector<double> wheel_travel_at(std::int64_t) const override { return {}; }
 
  private:
   const map::Path& path_;
