@@ -188,6 +188,7 @@ LidarOdometry::Located LidarOdometry::locate(const Scan& scan, Deskew source) {
   const Vec6 before = velocity_;
   const bool turns = source == Deskew::motion;  // are not measured
   Located located = locate_with(scan, source, velocity_);
+  const Pose predicted = located.expected.motion;
   const double enough = std::max(options_.scan_overlap, kUsual * overlap_);
   if (!(located.fit.converged && located.fit.overlap >= enough) && located.surfels.size() >= kLeastSurfels &&
       options_.scan_turn_rad > 0.0) {
@@ -212,7 +213,8 @@ LidarOdometry::Located LidarOdometry::locate(const Scan& scan, Deskew source) {
     Mat6& covariance = located.fit.covariance;
     const bool measured = source == Deskew::odometry;
     if (options_.deskew == Deskew::none && !scan.times_ns.empty())
-      covariance += doubt_of_skew(T_map_last_.inverse() * located.fit.T_map_sensor);
+      covariance += doubt_of_skew(T_map_last_.inverse() * located.fit.T_map_sensor) +
+                    doubt_of_skew(predicted);
     if (!measured && !first_)
       covariance += doubt_of_change(located.fit.T_map_sensor.q, dt * (velocity_ - before), turns);
     located.doubt = doubt_of_overlap(located.fit.overlap, overlap_,

@@ -18,7 +18,7 @@ Mat6 doubt_of_velocity(const Quat& q_map_scanner, const Vec6& wrong, bool turns)
 /// Of a velocity that changed by so much since the scan before, so that it was hardly steady within this one.
 Mat6 doubt_of_change(const Quat& q_map_scanner, const Vec6& changed, bool turns);
 
-/// Of a scan that is registered as measured. @param motion  over the scan
+/// Of a scan that is registered as measured. @param motion  over the scan: as registered, which is short of it where skew hides a turn, and as predicted
 Mat6 doubt_of_skew(const Pose& motion);
 
 /// Of surfels that fit nothing where they usually do: a motion that was not steady, or a place that is another. @param overlap  shares of surfels that fit, now and usually
