@@ -213,8 +213,8 @@ LidarOdometry::Located LidarOdometry::locate(const Scan& scan, Deskew source) {
     Mat6& covariance = located.fit.covariance;
     const bool measured = source == Deskew::odometry;
     if (options_.deskew == Deskew::none && !scan.times_ns.empty())
-      covariance += doubt_of_skew(T_map_last_.inverse() * located.fit.T_map_sensor) +
-                    doubt_of_skew(predicted);
+      covariance +=
+          doubt_of_skew(T_map_last_.inverse() * located.fit.T_map_sensor) + doubt_of_skew(predicted);
     if (!measured && !first_)
       covariance += doubt_of_change(located.fit.T_map_sensor.q, dt * (velocity_ - before), turns);
     located.doubt = doubt_of_overlap(located.fit.overlap, overlap_,
