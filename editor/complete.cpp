@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "editor/anchor.hpp"
 #include "editor/selection.hpp"
+#include "map/sensors.hpp"
 
 namespace hallway::editor {
 namespace {
@@ -74,6 +75,18 @@ std::set<std::string_view> given(const CommandSpec& command, const std::vector<s
   return names;
 }
 
+/// The keys that a sensor of the kind in the words may have, of points where there is none.
+void add_sensor_keys(const std::vector<std::string>& words, std::set<std::string>& out) {
+  constexpr std::string_view kKind = "kind=";
+  std::string kind = "points";
+  for (const std::string& word : words) {
+    if (word.starts_with(kKind)) kind = word.substr(kKind.size());
+  }
+  if (std::ranges::find(map::sensor_kinds(), kind, &map::SensorKind::name) == map::sensor_kinds().end())
+    return;
+  for (const std::string& key : map::sensor_key_names(kind)) out.insert(key + "=");
+}
+
 void add_arguments(const State& state, const CommandSpec& command, const std::vector<std::string>& words,
                    std::string_view typed, std::set<std::string>& out) {
   const auto names = given(command, words);
@@ -84,6 +97,7 @@ void add_arguments(const State& state, const CommandSpec& command, const std::ve
     if (first) out.merge(values(state, spec, typed));
     first = false;
   }
+  if (command.name == "sensor") add_sensor_keys(words, out);
   if (command.name != "help") return;
   for (const CommandSpec& other : commands()) out.emplace(other.name);
 }

@@ -35,9 +35,13 @@ constexpr ArgSpec kOptionalName{"name", ArgKind::kName, "what it is called"};
 constexpr std::array kStart{kAt, kHeading,
                             ArgSpec{"name", ArgKind::kName, "of the start [the default one has none]"}};
 
+/// Those of the table that reads maps and scenarios.
+constexpr std::string_view kSensorKindNames =
+    std::ranges::find(map::kSensorKeys, "kind", &map::KeySpec::name)->choices;
+
 constexpr std::array kSensor{
     ArgSpec{"name", ArgKind::kName, "what it is called"}.needed(),
-    ArgSpec{"kind", ArgKind::kChoice, "what it sees, or feels [points]", "", "points planes bump encoders"},
+    ArgSpec{"kind", ArgKind::kChoice, "what it sees, or feels [points]", "", kSensorKindNames},
     ArgSpec{"horizontal_fov", ArgKind::kAngle, "its whole field of view from side to side [90]"},
     ArgSpec{"vertical_fov", ArgKind::kAngle, "its whole field of view from top to bottom [60]"},
     ArgSpec{"min_range", ArgKind::kLength, "nearest distance seen [0]"},
@@ -46,7 +50,11 @@ constexpr std::array kSensor{
     ArgSpec{"at", ArgKind::kVector, "where on the robot: forward, left, up [0,0,0]"},
     ArgSpec{"yaw", ArgKind::kAngle, "turn on the robot about z, to the left [0]"},
     ArgSpec{"pitch", ArgKind::kAngle, "then about its y, down [0]"},
-    ArgSpec{"roll", ArgKind::kAngle, "then about its x [0]"}};
+    ArgSpec{"roll", ArgKind::kAngle, "then about its x [0]"},
+    ArgSpec{
+        "keys", ArgKind::kKeys,
+        "other keys of its kind, to the end of the line; `hallway sensors KIND` lists them. An empty value "
+        "removes a key"}};
 constexpr std::array kPath{
     ArgSpec{"name", ArgKind::kName, "what it is called"}.needed(),
     ArgSpec{"places", ArgKind::kPlaces, "its waypoints, two or more"}.needed(),
@@ -124,6 +132,14 @@ void start(Edit& edit, const Arguments& arguments) {
 
 // ---- Sensors --------------------------------------------------------------------------------------------------------
 
+/// Refuses what is a key of no kind; which of them the kind has is said later.
+void check_sensor_key(const std::string& key) {
+  auto names = names_in(map::kSensorKeys, &map::KeySpec::name);
+  if (std::ranges::find(names, key) != names.end()) return;
+  for (const ArgSpec& argument : kSensor) names.emplace_back(argument.name);
+  refuse("sensor: there is no argument or key `{}`{}", printable(key), suggestion(key, names));
+}
+
 /// The keys of a sensor that the arguments give.
 Pairs sensor_keys(const Arguments& arguments) {
   Pairs keys;
@@ -137,6 +153,13 @@ Pairs sensor_keys(const Arguments& arguments) {
       keys.emplace_back(std::string(length) + "_m", format_double(arguments.number(length)));
   }
   if (arguments.has("at")) keys.emplace_back("position_m", vector_text(arguments.place("at")));
+  if (!arguments.has("keys")) return keys;
+  for (const auto& [key, value] : arguments.keys("keys")) {
+    if (key == "classname" || std::ranges::find(keys, key, &Pairs::value_type::first) != keys.end())
+      refuse("sensor: the key {} is given already", printable(key));
+    check_sensor_key(key);
+    keys.emplace_back(key, value);
+  }
   return keys;
 }
 
@@ -164,7 +187,9 @@ void sensor(Edit& edit, const Arguments& arguments) {
     map::Entity entity;
     entity.keys = {{"classname", "hw_sensor"}, {"name", name}};
     if (!arguments.has("kind")) entity.add("kind", "points");
-    for (const auto& [key, value] : keys) entity.add(key, value);
+    for (const auto& [key, value] : keys) {
+      if (!value.empty()) entity.add(key, value);
+    }
     const Id id = add_entity(edit.state, std::move(entity));
     check_sensor(edit, edit.state.entities.size() - 1);
     return say_made(edit, {id});
@@ -412,7 +437,8 @@ constexpr std::array kPlacesCommands{
                 .summary = "put a sensor on the robot, or change the one of that name",
                 .details = "Scenarios without sensors of their own take those of their map. Of a sensor that "
                            "is there already only "
-                           "what is given changes.",
+                           "what is given changes. Any key of its kind may follow: `sensor scan kind=lidar "
+                           "preset=lidar16 rate_hz=5`.",
                 .arguments = kSensor,
                 .example = "sensor eyes horizontal_fov=120 max_range=12 noise=2cm at=0.2,0,0.5 pitch=10",
                 .run = &sensor},

@@ -84,6 +84,30 @@ TEST(PlacesCommands, ASensorIsMadeAndThenChanged) {
   EXPECT_EQ(map::sensors(document_of(map)).size(), 2u);
 }
 
+/// The kinds and keys are those of the table that reads maps: each kind is made by its name, with any of its keys.
+TEST(PlacesCommands, ASensorMayBeOfAnyKindWithAnyOfItsKeys) {
+  Places map;
+  for (const map::SensorKind& kind : map::sensor_kinds()) {
+    for (const std::string& name : map::sensor_key_names(kind.name)) {
+      const map::KeySpec& key = map::sensor_key(kind.name, name);
+      if (name == "kind" || key.fallback.empty()) continue;
+      const std::string made = std::string(kind.name) + "_" + name;
+      const std::string pair = name + "=\"" + std::string(key.fallback) + "\"";
+      map.run("sensor " + made + " kind=" + std::string(kind.name) + " " + pair);
+      const auto& keys = test::named(map, made).head;
+      ASSERT_NE(keys->find(name), nullptr) << made;
+      EXPECT_EQ(*keys->find(name), key.fallback) << made;
+      map.run("sensor " + made + " " + name + "=");
+      EXPECT_EQ(test::named(map, made).head->find(name), nullptr) << made;
+      map.run("delete " + made);
+    }
+  }
+  map.run("sensor scan kind=lidar at=0.1,0,0.3 preset=lidar16 rate_hz=5");
+  map.run("sensor imu kind=imu preset=imu_mems");
+  EXPECT_TRUE(map::check(document_of(map)).empty());
+  EXPECT_EQ(map::sensors(document_of(map)).size(), 2u);
+}
+
 TEST(PlacesCommands, ASensorThatCannotBeIsRefused) {
   Places map;
   map.run_all({"sensor eyes max_range=5", "path way 0,0;1,0"});
@@ -105,6 +129,11 @@ TEST(PlacesCommands, ASensorThatCannotBeIsRefused) {
     refused("kind=point", "\"points\"");
     refused("max_range=5deg", "no length");
     refused("nois=1", "\"noise\"");
+    refused("rings=16", "rings");  // of lidars
+    refused("kind=lidar rings=0", "rings");
+    refused("kind=lidar ring=8", "\"rings\"");
+    refused("kind=lidar classname=light", "classname");
+    refused("yaw=10 yaw_deg=20", "yaw_deg");
   }
   EXPECT_TRUE(mentions(refusal(map, "sensor eyes"), "already"));
   EXPECT_TRUE(mentions(refusal(map, "sensor"), "name"));
