@@ -2,6 +2,7 @@
 #pragma once
 
 #include <signal.h>
+#include <sys/wait.h>
 
 #include <chrono>
 #include <string>
@@ -13,13 +14,14 @@
 
 namespace hallway::test {
 
-/// `hallway serve` of a scenario, started and listening.
+/// `hallway serve` of a scenario, started and listening, however long that takes; one that has ended before has no address.
 class Served {
  public:
   /// @param more  arguments besides the address
   explicit Served(std::vector<std::string> more) : process_(arguments(std::move(more))) {
-    for (int i = 0; i < 6000 && address_.empty(); ++i) {
+    for (bool ended = false; address_.empty() && !ended;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      ended = has_ended();
       const std::string printed = process_.err_so_far();
       const std::size_t at = printed.find(" on 127.0.0.1:");
       const std::size_t end = printed.find('\n', at);
@@ -42,6 +44,11 @@ class Served {
   }
 
  private:
+  bool has_ended() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(process_.pid()), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == process_.pid();
+  }
   static std::vector<std::string> arguments(std::vector<std::string> more) {
     std::vector<std::string> all{hallway_program(), "serve", "--udp", "127.0.0.1:0"};
     all.insert(all.end(), more.begin(), more.end());
