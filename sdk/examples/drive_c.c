@@ -35,13 +35,14 @@ typedef struct plugin_t {
   const hw_host_t* host;
   double speed_m_s;  // within the limits of the drive
   double greatest_turn_rad_s;
-  int64_t away_until_ns;  // time of the frames until which it backs off
-  double turn_rad_s;      // meanwhile
+  int has_touched;
+  int64_t touched_ns;  // time of the last frame in which it did; it backs off for a while
+  double turn_rad_s;   // meanwhile
 } plugin_t;
 
 static const double kSpeed_m_s = 0.3;
 static const double kTurn_rad_s = 0.8;
-static const int64_t kAway_ns = 1500000000;
+static const uint64_t kAway_ns = 1500000000;
 
 // 3. The algorithm.
 
@@ -66,10 +67,12 @@ static hw_status_t process(void* self, const hw_frame_t* frame, hw_error_t* erro
     if (sample->kind == HW_SAMPLE_BUMP && is_touching(sample->payload, &side)) touching = 1;
   }
   if (touching) {
-    plugin->away_until_ns = frame->t_ns + kAway_ns;
+    plugin->has_touched = 1;
+    plugin->touched_ns = frame->t_ns;
     plugin->turn_rad_s = side > 0 ? -plugin->greatest_turn_rad_s : plugin->greatest_turn_rad_s;
   }
-  const int away = frame->t_ns < plugin->away_until_ns;
+  // Times may be any: without a sign their difference does not overflow.
+  const int away = plugin->has_touched && (uint64_t)frame->t_ns - (uint64_t)plugin->touched_ns < kAway_ns;
   // Members that are not named here, such as the sideways speed, are 0.
   const hw_drive_command_t command = {.size = sizeof command,
                                       .linear_m_s = away ? -0.5 * plugin->speed_m_s : plugin->speed_m_s,
@@ -82,7 +85,7 @@ static hw_status_t process(void* self, const hw_frame_t* frame, hw_error_t* erro
 // 4. The rest of the life cycle: there is no map.
 
 static void forget(plugin_t* plugin) {
-  plugin->away_until_ns = INT64_MIN;
+  plugin->has_touched = 0;
   plugin->turn_rad_s = 0;
 }
 
