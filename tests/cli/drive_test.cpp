@@ -33,6 +33,12 @@ Ended drive_office(const std::string& plugin, const fs::path& out,
   return hallway(arguments);
 }
 
+/// Status 0; if not, with what the program wrote on its standard error.
+testing::AssertionResult succeeds(const Ended& ended) {
+  if (ended.status == 0) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "status " << ended.status << ": " << ended.err;
+}
+
 std::vector<CommandCause> causes_of(const fs::path& folder) {
   std::vector<CommandCause> causes;
   for (const log::ObeyedCommand& command : log::read_obeyed_commands(folder / "drive.csv"))
@@ -46,9 +52,9 @@ nlohmann::json drive_of(const fs::path& folder) {
 
 TEST(DriveRuns, APluginMovesTheRobot) {
   const TempFolder folder;
-  ASSERT_EQ(drive_office("wanderer", folder / "a").status, 0);
+  ASSERT_TRUE(succeeds(drive_office("wanderer", folder / "a")));
   const std::string fast = "wanderer:speed_m_s=0.25";
-  ASSERT_EQ(drive_office(fast, folder / "b").status, 0);
+  ASSERT_TRUE(succeeds(drive_office(fast, folder / "b")));
   EXPECT_NE(read_file(folder / "a/truth.tum"), read_file(folder / "b/truth.tum"));
   EXPECT_GT(drive_of(folder / "a").at("distance_m").get<double>(),
             drive_of(folder / "b").at("distance_m").get<double>());
@@ -90,9 +96,9 @@ TEST(DriveRuns, ARobotWhosePluginHangsStandsAfterTheWatchdogsTime) {
 TEST(DriveRuns, ASilentPluginsLastCommandHolds) {
   const TempFolder folder;
   const std::string falls_silent = drives() + ":silent_from=10";
-  ASSERT_EQ(drive_office(falls_silent, folder / "held").status, 0);
+  ASSERT_TRUE(succeeds(drive_office(falls_silent, folder / "held")));
   EXPECT_EQ(causes_of(folder / "held").back(), CommandCause::kHeld);
-  ASSERT_EQ(drive_office(falls_silent, folder / "timed", {"--set", "robot.command_timeout_s=1"}).status, 0);
+  ASSERT_TRUE(succeeds(drive_office(falls_silent, folder / "timed", {"--set", "robot.command_timeout_s=1"})));
   const std::vector<CommandCause> causes = causes_of(folder / "timed");
   EXPECT_EQ(causes[18], CommandCause::kHeld);
   EXPECT_EQ(causes[19], CommandCause::kTimeout) << "a second after the last command, at frame 9";
@@ -101,7 +107,7 @@ TEST(DriveRuns, ASilentPluginsLastCommandHolds) {
 /// The frames of a replay are those of the log, whatever is commanded.
 TEST(DriveRuns, AReplaySaysWhereItsCommandsDiffer) {
   const TempFolder folder;
-  ASSERT_EQ(drive_office("wanderer", folder / "run").status, 0);
+  ASSERT_TRUE(succeeds(drive_office("wanderer", folder / "run")));
   const auto replayed = [&](const std::string& plugin, const std::string& name) {
     const Ended ended =
         hallway({"replay", folder / "run/run.mcap", "--plugin", plugin, "--out", folder / name});
@@ -145,7 +151,7 @@ TEST(DriveRuns, EventsStandInTheTableTheLogAndTheReplay) {
 /// What a plugin drove once is driven again without it, from the run's log or table.
 TEST(DriveRuns, CommandsOfARunMoveTheRobotAsTheyDid) {
   const TempFolder folder;
-  ASSERT_EQ(drive_office("wanderer", folder / "a").status, 0);
+  ASSERT_TRUE(succeeds(drive_office("wanderer", folder / "a")));
   for (const char* file : {"run.mcap", "drive.csv"}) {
     const fs::path out = folder / (std::string("again_") + file);
     const Ended again = drive_office(
@@ -252,14 +258,14 @@ TEST(DriveRuns, TheFolderOfARunWithARobotFileStandsForItself) {
   const std::string robot =
       folder.write("robot.map", kRobotBegin + kRobotFileBody + kRobotDrive + kRobotSensors);
   const std::string scenario = folder.write("s.toml", scenario_of("file = 'robot.map'\n"));
-  ASSERT_EQ(run_in(folder, scenario, "a").status, 0);
+  ASSERT_TRUE(succeeds(run_in(folder, scenario, "a")));
   EXPECT_EQ(read_file(folder / "a/robot.map"), read_file(robot));
   const auto manifest = nlohmann::json::parse(read_file(folder / "a/run.json"));
   EXPECT_EQ(manifest.at("inputs").at(2).at("file"), "robot.map");
   const fs::path name = folder / "picture.png", copy = folder / "a/scenario.toml";
   fs::remove(robot);
   EXPECT_EQ(run_in(folder, scenario, "b").status, 3) << "the robot file is gone";
-  EXPECT_EQ(run_in(folder, copy, "b").status, 0);
+  EXPECT_TRUE(succeeds(run_in(folder, copy, "b")));
   for (const char* file : {"truth.tum", "drive.csv"})
     EXPECT_EQ(read_file(folder / "a" / file), read_file(folder / "b" / file)) << file;
   EXPECT_EQ(
