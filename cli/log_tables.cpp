@@ -188,6 +188,34 @@ void add_imu(log::RowFile& file, const TableReading& reading) {
   }
 }
 
+void add_gnss(log::RowFile& file, const TableReading& reading) {
+  const auto& gnss = reading.payload<hw_gnss_t>();
+  Cells row(file.next_row());
+  row.whole(reading.sample.sequence).whole(reading.sample.t_end_ns).whole(std::uint64_t{gnss.fix});
+  row.numbers(gnss.position_m).numbers(gnss.covariance);
+  for (const char* name : {"position_m", "correlated_m"}) {
+    if (const std::vector<double>* values = reading.true_values(name, 3)) {
+      row.numbers(*values);
+    } else {
+      row.none(3);
+    }
+  }
+}
+
+void add_magnetic(log::RowFile& file, const TableReading& reading) {
+  const auto& magnetic = reading.payload<hw_magnetic_t>();
+  Cells row(file.next_row());
+  row.whole(reading.sample.sequence).whole(reading.sample.t_end_ns);
+  row.number(magnetic.heading_rad).number(magnetic.variance_rad2);
+  for (const char* name : {"heading_rad", "deviation_rad", "bias_rad"}) {
+    if (const std::vector<double>* values = reading.true_values(name, 1)) {
+      row.numbers(*values);
+    } else {
+      row.none(1);
+    }
+  }
+}
+
 /// How the elements of a kind are written.
 struct ElementTable {
   std::string columns;
@@ -223,6 +251,12 @@ const std::map<std::uint32_t, ElementTable>& element_tables() {
         "true_wx_rad_s,true_wy_rad_s,true_wz_rad_s,true_fx_m_s2,true_fy_m_s2,true_fz_m_s2,"
         "bias_wx_rad_s,bias_wy_rad_s,bias_wz_rad_s,bias_fx_m_s2,bias_fy_m_s2,bias_fz_m_s2",
         add_imu}},
+      {HW_SAMPLE_GNSS,
+       {"sequence,t_ns,fix,x_m,y_m,z_m,cov_xx,cov_xy,cov_xz,cov_yy,cov_yz,cov_zz,"
+        "true_x_m,true_y_m,true_z_m,correlated_x_m,correlated_y_m,correlated_z_m",
+        add_gnss}},
+      {HW_SAMPLE_MAGNETIC,
+       {"sequence,t_ns,heading_rad,variance_rad2,true_heading_rad,deviation_rad,bias_rad", add_magnetic}},
   };
   return kTables;
 }

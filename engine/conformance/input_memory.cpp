@@ -197,6 +197,8 @@ const void* InputMemory::put_intrinsics(const hw_sensor_info_t& sensor, const In
   if (const hw_range_scan_info_t* scan = hw_range_scan_info_of(&sensor))
     return &put(*scan, shape.intrinsics_growth, shape);
   if (const hw_imu_info_t* imu = hw_imu_info_of(&sensor)) return &put(*imu, shape.intrinsics_growth, shape);
+  if (const hw_gnss_info_t* gnss = hw_gnss_info_of(&sensor))
+    return &put(*gnss, shape.intrinsics_growth, shape);
   blocks_.push_back(std::make_unique<Block>(kUnknownPayloadBytes, shape.tight));
   return std::memcpy(blocks_.back()->data(), &kUnknownPayloadBytes, sizeof kUnknownPayloadBytes);
 }

@@ -65,7 +65,10 @@ const void* ordinary_intrinsics(std::uint32_t kind) {
   static const hw_range_scan_info_t kScan{
       sizeof kScan, static_cast<std::uint32_t>(kWalkElements / 2), 2, 1, 0.003, 0.04};
   static const hw_imu_info_t kImu{sizeof kImu, 0, 9.81, 1e-3, 1e-5, 1e-2, 1e-4, 10.0, 100.0};
+  static const hw_gnss_info_t kGnss{sizeof kGnss, 0, 50.0, 8.0, 100.0};
   switch (kind) {
+    case HW_SAMPLE_GNSS:
+      return &kGnss;
     case HW_SAMPLE_ENCODER:
       return &kEncoder;
     case HW_SAMPLE_BUMP:

@@ -105,12 +105,14 @@ void takes_unknown_intrinsics(const Subject& subject) {
     const hw_range_scan_info_t scan{sizeof scan, 0, 0, 0, kNotKnown, kNotKnown};
     const hw_imu_info_t imu{sizeof imu, 0,         kNotKnown, kNotKnown, kNotKnown,
                             kNotKnown,  kNotKnown, kNotKnown, kNotKnown};
+    const hw_gnss_info_t gnss{sizeof gnss, 0, kNotKnown, kNotKnown, kNotKnown};
     change_sensors(subject, [&](hw_sensor_info_t& sensor) {
       sensor.intrinsics = &sensor;  // of a kind that has none yet: any struct that begins with its size
       if (sensor.kind == HW_SAMPLE_BUMP) sensor.intrinsics = &bump;
       if (sensor.kind == HW_SAMPLE_ENCODER) sensor.intrinsics = &encoder;
       if (sensor.kind == HW_SAMPLE_RANGE_SCAN) sensor.intrinsics = &scan;
       if (sensor.kind == HW_SAMPLE_IMU) sensor.intrinsics = &imu;
+      if (sensor.kind == HW_SAMPLE_GNSS) sensor.intrinsics = &gnss;
     });
   }
 }

@@ -95,6 +95,28 @@ void takes_odometry_of_which_little_is_known(const Subject& subject) {
   }
 }
 
+void takes_no_fix(const Subject& subject) {
+  walk_with<hw_gnss_t>(subject, host::kGnssSamples, [](host::Payload&, hw_gnss_t& gnss) {
+    gnss.fix = HW_GNSS_NO_FIX;
+    std::ranges::fill(gnss.position_m, kNotMeasured);
+    std::ranges::fill(gnss.covariance, kNotMeasured);
+  });
+}
+
+void takes_fixes_of_an_unknown_kind(const Subject& subject) {
+  constexpr std::uint32_t kLater = 77;
+  walk_with<hw_gnss_t>(subject, host::kGnssSamples, [](host::Payload&, hw_gnss_t& gnss) {
+    gnss.fix = kLater;
+    for (double& coordinate : gnss.position_m) coordinate = std::isnan(coordinate) ? 0.0 : coordinate;
+  });
+}
+
+void takes_no_heading(const Subject& subject) {
+  walk_with<hw_magnetic_t>(subject, host::kMagneticSamples, [](host::Payload&, hw_magnetic_t& magnetic) {
+    magnetic.heading_rad = magnetic.variance_rad2 = kNotMeasured;
+  });
+}
+
 /// A host that has dropped frames gives their samples with the next one.
 void takes_carried_samples(const Subject& subject) {
   constexpr std::uint64_t kDropped = 50;
@@ -131,6 +153,9 @@ constexpr Test kSampleTests[] = {
     {"imu-missing-axes", "An IMU may lack axes, and covariances.", takes_imus_that_lack_axes},
     {"odometry-unknown", "Odometry may come without velocities and without a covariance.",
      takes_odometry_of_which_little_is_known},
+    {"gnss-no-fix", "A receiver of satellites may know nothing.", takes_no_fix},
+    {"gnss-later-fix", "A fix may be of a kind that a later version brings.", takes_fixes_of_an_unknown_kind},
+    {"magnetic-unknown", "A compass may not know where it points.", takes_no_heading},
     {"carried-samples",
      "Samples of which none may be missed come with the next frame where a host has dropped one: several of "
      "one sensor are answered.",

@@ -77,6 +77,12 @@ ImuIntrinsics imu_of(const hw_imu_info_t& info) {
   return imu;
 }
 
+GnssIntrinsics gnss_of(const hw_gnss_info_t& info) {
+  expect(HW_HAS(&info, hw_gnss_info_t, altitude_m), "intrinsics of a wrong size");
+  return {
+      .latitude_deg = info.latitude_deg, .longitude_deg = info.longitude_deg, .altitude_m = info.altitude_m};
+}
+
 hw_encoder_wheel_t c_wheel(const EncoderWheel& from) {
   hw_encoder_wheel_t wheel{};
   wheel.m_per_tick = from.m_per_tick;
@@ -158,6 +164,14 @@ const void* CActivation::intrinsics(const SensorInfo& sensor) {
     for (const ImuNumber& number : imu_numbers()) info.*number.abi = imu->*number.host;
     return &info;
   }
+  if (const auto* gnss = std::get_if<GnssIntrinsics>(&sensor.intrinsics)) {
+    hw_gnss_info_t& info = receivers_.emplace_back();
+    info.size = sizeof info;
+    info.latitude_deg = gnss->latitude_deg;
+    info.longitude_deg = gnss->longitude_deg;
+    info.altitude_m = gnss->altitude_m;
+    return &info;
+  }
   return nullptr;
 }
 
@@ -210,6 +224,7 @@ void take_later_facts(const hw_sensor_info_t& info, SensorInfo& sensor) {
   if (const hw_range_scan_info_t* scan = hw_range_scan_info_of(&info))
     sensor.intrinsics = range_scan_of(*scan);
   if (const hw_imu_info_t* imu = hw_imu_info_of(&info)) sensor.intrinsics = imu_of(*imu);
+  if (const hw_gnss_info_t* gnss = hw_gnss_info_of(&info)) sensor.intrinsics = gnss_of(*gnss);
   expect_none(problem_of(sensor));
 }
 

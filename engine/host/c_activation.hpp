@@ -34,6 +34,7 @@ class CActivation {
   std::deque<hw_bump_info_t> bumps_;
   std::deque<hw_range_scan_info_t> scans_;
   std::deque<hw_imu_info_t> imus_;
+  std::deque<hw_gnss_info_t> receivers_;
   hw_drive_info_t drive_{};
   std::vector<double> corners_;
   hw_body_info_t body_{};

@@ -59,9 +59,16 @@ struct ImuIntrinsics {
   double max_force_m_s2 = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Of a receiver of satellites: where on Earth the origin of its frame is; see hw_gnss_info_t.
+struct GnssIntrinsics {
+  double latitude_deg = std::numeric_limits<double>::quiet_NaN();
+  double longitude_deg = std::numeric_limits<double>::quiet_NaN();
+  double altitude_m = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Of any sensor; std::monostate: nothing is known.
-using Intrinsics =
-    std::variant<std::monostate, BumpIntrinsics, EncoderIntrinsics, RangeScanIntrinsics, ImuIntrinsics>;
+using Intrinsics = std::variant<std::monostate, BumpIntrinsics, EncoderIntrinsics, RangeScanIntrinsics,
+                                ImuIntrinsics, GnssIntrinsics>;
 
 /// Most zones or wheels of a sensor.
 inline constexpr std::size_t kMaxIntrinsicParts = 256;

@@ -112,6 +112,13 @@ std::string problem_of(const ImuIntrinsics& imu) {
   return {};
 }
 
+std::string problem_of(const GnssIntrinsics& gnss) {
+  if (std::abs(gnss.latitude_deg) > 90.0) return "a latitude beyond a pole";
+  if (std::abs(gnss.longitude_deg) > 180.0) return "a longitude beyond half a turn";
+  if (std::isinf(gnss.altitude_m)) return "an altitude that is infinite";
+  return {};
+}
+
 }  // namespace
 
 std::span<const DriveNumber> drive_numbers() {
@@ -168,6 +175,9 @@ std::string problem_of_intrinsics(const SensorInfo& sensor) {
     return sensor.kind == HW_SAMPLE_RANGE_SCAN ? problem_of(*scan) : "scans of a sensor that has no rays";
   if (const auto* imu = std::get_if<ImuIntrinsics>(&sensor.intrinsics))
     return sensor.kind == HW_SAMPLE_IMU ? problem_of(*imu) : "noise of an IMU of a sensor that is none";
+  if (const auto* gnss = std::get_if<GnssIntrinsics>(&sensor.intrinsics))
+    return sensor.kind == HW_SAMPLE_GNSS ? problem_of(*gnss)
+                                         : "a place on Earth of a sensor that is no receiver";
   return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <hallway/gnss.h>
 #include <hallway/imu.h>
 #include <hallway/robot.h>
 

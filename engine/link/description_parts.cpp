@@ -52,6 +52,12 @@ struct ScanNumbers {
   double scan_s = 0;
 };
 
+struct OriginNumbers {
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double altitude_m = 0;
+};
+
 struct ZoneNumbers {
   double middle_rad = 0;
   double width_rad = 0;
@@ -106,12 +112,18 @@ Bytes intrinsics_bytes(const host::Intrinsics& intrinsics) {
       for (const host::ImuNumber& number : host::imu_numbers()) writer.put(imu->*number.host);
     });
   }
+  if (const auto* gnss = std::get_if<host::GnssIntrinsics>(&intrinsics)) {
+    return written([&](AlignedByteWriter& writer) {
+      writer.put(IntrinsicsHead{.kind = HW_SAMPLE_GNSS});
+      writer.put(OriginNumbers{gnss->latitude_deg, gnss->longitude_deg, gnss->altitude_m});
+    });
+  }
   return {};
 }
 
 bool is_known(std::uint32_t kind) {
   return kind == 0 || kind == HW_SAMPLE_BUMP || kind == HW_SAMPLE_ENCODER || kind == HW_SAMPLE_RANGE_SCAN ||
-         kind == HW_SAMPLE_IMU;
+         kind == HW_SAMPLE_IMU || kind == HW_SAMPLE_GNSS;
 }
 
 void read_zones(AlignedByteReader& reader, host::BumpIntrinsics& bump) {
@@ -141,6 +153,11 @@ void read_intrinsics(std::uint32_t kind, AlignedByteReader& reader, host::Intrin
   } else if (kind == HW_SAMPLE_IMU) {
     auto& imu = intrinsics.emplace<host::ImuIntrinsics>();
     for (const host::ImuNumber& number : host::imu_numbers()) imu.*number.host = reader.get<double>();
+  } else if (kind == HW_SAMPLE_GNSS) {
+    const auto numbers = reader.get<OriginNumbers>();
+    intrinsics = host::GnssIntrinsics{.latitude_deg = numbers.latitude_deg,
+                                      .longitude_deg = numbers.longitude_deg,
+                                      .altitude_m = numbers.altitude_m};
   }
 }
 

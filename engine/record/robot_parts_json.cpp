@@ -104,6 +104,11 @@ Json print_intrinsics(const host::Intrinsics& intrinsics) {
       json[std::string(number.key)] = number_json(imu->*number.host);
     return json;
   }
+  if (const auto* gnss = std::get_if<host::GnssIntrinsics>(&intrinsics)) {
+    return {{"latitude_deg", number_json(gnss->latitude_deg)},
+            {"longitude_deg", number_json(gnss->longitude_deg)},
+            {"altitude_m", number_json(gnss->altitude_m)}};
+  }
   return nullptr;
 }
 
@@ -159,6 +164,10 @@ void read_intrinsics(const Json& json, host::SensorInfo& sensor) {
       host::ImuIntrinsics& imu = sensor.intrinsics.emplace<host::ImuIntrinsics>();
       for (const host::ImuNumber& number : host::imu_numbers())
         imu.*number.host = number_in(json, number.key);
+    } else if (json.contains("latitude_deg")) {
+      sensor.intrinsics = host::GnssIntrinsics{.latitude_deg = number_in(json, "latitude_deg"),
+                                               .longitude_deg = number_in(json, "longitude_deg"),
+                                               .altitude_m = number_in(json, "altitude_m")};
     }
     require_sound_part(host::problem_of_intrinsics(sensor), "intrinsics");
   });

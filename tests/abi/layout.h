@@ -14,7 +14,9 @@
 SIZE(hw_version_t, 8);
 AT(hw_version_t, abi_major, 0);
 AT(hw_version_t, abi_minor, 4);
-static_assert(HW_SAMPLE_RANGE_SCAN == 4 && HW_SAMPLE_ODOMETRY == 7 && HW_SAMPLE_IMU == 10, "kinds of 1.5");
+static_assert(HW_SAMPLE_RANGE_SCAN == 4 && HW_SAMPLE_ODOMETRY == 7 && HW_SAMPLE_IMU == 10 &&
+                  HW_SAMPLE_GNSS == 11 && HW_SAMPLE_MAGNETIC == 12,
+              "kinds of 1.5");
 
 SIZE(hw_error_t, 1008);
 AT(hw_error_t, size, 0);
@@ -139,6 +141,25 @@ AT(hw_imu_t, angular_rad_s, 8);
 AT(hw_imu_t, force_m_s2, 32);
 AT(hw_imu_t, angular_covariance, 56);
 AT(hw_imu_t, force_covariance, 104);
+
+SIZE(hw_gnss_t, 80);
+AT(hw_gnss_t, size, 0);
+AT(hw_gnss_t, fix, 4);
+AT(hw_gnss_t, position_m, 8);
+AT(hw_gnss_t, covariance, 32);
+
+SIZE(hw_gnss_info_t, 32);
+AT(hw_gnss_info_t, size, 0);
+AT(hw_gnss_info_t, reserved, 4);
+AT(hw_gnss_info_t, latitude_deg, 8);
+AT(hw_gnss_info_t, longitude_deg, 16);
+AT(hw_gnss_info_t, altitude_m, 24);
+
+SIZE(hw_magnetic_t, 24);
+AT(hw_magnetic_t, size, 0);
+AT(hw_magnetic_t, reserved, 4);
+AT(hw_magnetic_t, heading_rad, 8);
+AT(hw_magnetic_t, variance_rad2, 16);
 
 SIZE(hw_imu_info_t, 64);
 AT(hw_imu_info_t, size, 0);

@@ -11,14 +11,15 @@
 
 namespace hallway::test {
 
-/// A robot of which all is known, each number another one, with encoders, a bumper, a sensor of points, one of rays and an IMU.
+/// A robot of which all is known, each number another one, with encoders, a bumper, a sensor of points, one of rays, an IMU and a receiver of satellites.
 inline host::Activation known_robot() {
   host::Activation robot;
   robot.sensors = {{.id = 4, .kind = HW_SAMPLE_ENCODER, .name = "wheels"},
                    {.id = 7, .kind = HW_SAMPLE_BUMP, .name = "bumper"},
                    {.id = 9, .kind = HW_SAMPLE_POINTS, .name = "eyes"},
                    {.id = 12, .kind = HW_SAMPLE_RANGE_SCAN, .name = "lidar"},
-                   {.id = 13, .kind = HW_SAMPLE_IMU, .name = "imu"}};
+                   {.id = 13, .kind = HW_SAMPLE_IMU, .name = "imu"},
+                   {.id = 15, .kind = HW_SAMPLE_GNSS, .name = "gnss"}};
   robot.sensors[0].intrinsics = host::EncoderIntrinsics{
       {{1.0 / 3.0, {0.1, 0.2, -0.3}, {1.0, 0.0, 0.0}}, {2.5e-4, {0.1, -0.2, -0.3}, {0.6, 0.8, 0.0}}}};
   robot.sensors[1].intrinsics =
@@ -28,6 +29,8 @@ inline host::Activation known_robot() {
   double imu_number = 1.0 / 11.0;
   auto& imu = robot.sensors[4].intrinsics.emplace<host::ImuIntrinsics>();
   for (const host::ImuNumber& number : host::imu_numbers()) imu.*number.host = imu_number += 0.5;
+  robot.sensors[5].intrinsics =
+      host::GnssIntrinsics{.latitude_deg = -33.5, .longitude_deg = 151.25, .altitude_m = 1.0 / 3.0};
   // With intrinsics before them, and without.
   for (const std::size_t i : {1u, 2u, 3u}) {
     robot.sensors[i].rate_hz = 1e3 / (3.0 + static_cast<double>(i));
@@ -92,6 +95,12 @@ inline void expect_same_intrinsics(const host::Intrinsics& a, const host::Intrin
     for (const host::ImuNumber& number : host::imu_numbers())
       EXPECT_TRUE(same_number(imu->*number.host, std::get<host::ImuIntrinsics>(b).*number.host))
           << number.key;
+  }
+  if (const auto* gnss = std::get_if<host::GnssIntrinsics>(&a)) {
+    const auto& other = std::get<host::GnssIntrinsics>(b);
+    EXPECT_TRUE(same_number(gnss->latitude_deg, other.latitude_deg));
+    EXPECT_TRUE(same_number(gnss->longitude_deg, other.longitude_deg));
+    EXPECT_TRUE(same_number(gnss->altitude_m, other.altitude_m));
   }
 }
 

@@ -97,6 +97,11 @@ void pass(Archive& archive, Passed<Archive, ImuIntrinsics>& imu) {
   for (const ImuNumber& number : imu_numbers()) archive.values(imu.*number.host);
 }
 
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, GnssIntrinsics>& gnss) {
+  archive.values(gnss.latitude_deg, gnss.longitude_deg, gnss.altitude_m);
+}
+
 /// Which of the alternatives it is, and that.
 template <typename Archive, typename Choice>
 void pass_choice(Archive& archive, Choice& choice) {
@@ -107,12 +112,14 @@ void pass_choice(Archive& archive, Choice& choice) {
     if (index == 2) choice = EncoderIntrinsics{};
     if (index == 3) choice = RangeScanIntrinsics{};
     if (index == 4) choice = ImuIntrinsics{};
-    if (index > 4) throw BadBytes{"intrinsics of an unknown kind"};
+    if (index == 5) choice = GnssIntrinsics{};
+    if (index > 5) throw BadBytes{"intrinsics of an unknown kind"};
   }
   if (auto* bump = std::get_if<BumpIntrinsics>(&choice)) pass(archive, *bump);
   if (auto* encoder = std::get_if<EncoderIntrinsics>(&choice)) pass(archive, *encoder);
   if (auto* scan = std::get_if<RangeScanIntrinsics>(&choice)) pass(archive, *scan);
   if (auto* imu = std::get_if<ImuIntrinsics>(&choice)) pass(archive, *imu);
+  if (auto* gnss = std::get_if<GnssIntrinsics>(&choice)) pass(archive, *gnss);
 }
 
 template <typename Archive>

@@ -17,7 +17,7 @@ namespace {
 std::vector<const SampleKind*>& table() {
   static std::vector<const SampleKind*> kinds{&kPointSamples,   &kPlaneSamples,     &kBumpSamples,
                                               &kEncoderSamples, &kRangeScanSamples, &kOdometrySamples,
-                                              &kImuSamples};
+                                              &kImuSamples,     &kGnssSamples,      &kMagneticSamples};
   return kinds;
 }
 
@@ -56,9 +56,9 @@ AddedSampleKind::AddedSampleKind(const SampleKind& kind) {
 }
 
 std::string sample_kind_name(std::uint32_t kind) {
-  static constexpr std::array kNames = {"points",  "planes",   "segments", "range_scan", "bump",
-                                        "encoder", "odometry", "image",    "depth",      "imu"};
-  static_assert(kNames.size() == HW_SAMPLE_IMU);
+  static constexpr std::array kNames = {"points",   "planes", "segments", "range_scan", "bump", "encoder",
+                                        "odometry", "image",  "depth",    "imu",        "gnss", "magnetic"};
+  static_assert(kNames.size() == HW_SAMPLE_MAGNETIC);
   if (const SampleKind* known = find_sample_kind(kind)) return known->name;
   return kind >= 1 && kind <= kNames.size() ? kNames[kind - 1] : fmt::format("kind {}", kind);
 }

@@ -114,6 +114,8 @@ extern const SampleKind kEncoderSamples;
 extern const SampleKind kRangeScanSamples;
 extern const SampleKind kOdometrySamples;
 extern const SampleKind kImuSamples;
+extern const SampleKind kGnssSamples;
+extern const SampleKind kMagneticSamples;
 
 /// The row of a kind; null for one that is not known.
 const SampleKind* find_sample_kind(std::uint32_t kind);

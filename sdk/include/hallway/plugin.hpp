@@ -307,6 +307,15 @@ inline std::optional<hw_imu_info_t> copy_imu_info(const hw_sensor_info_t& sensor
   return copy;
 }
 
+/// Likewise of where on Earth the frame of a sensor of HW_SAMPLE_GNSS is.
+inline std::optional<hw_gnss_info_t> copy_gnss_info(const hw_sensor_info_t& sensor) {
+  const hw_gnss_info_t* gnss = hw_gnss_info_of(&sensor);
+  if (gnss == nullptr) return std::nullopt;
+  hw_gnss_info_t copy = *gnss;
+  copy.size = sizeof copy;
+  return copy;
+}
+
 /// The rays of a sample of HW_SAMPLE_RANGE_SCAN; refers to the sample.
 class RangeScan {
  public:
@@ -366,6 +375,16 @@ inline const hw_odometry_t* odometry_in(const hw_sample_t& sample) {
 /// The reading of an IMU that a sample is; null where it is of another kind.
 inline const hw_imu_t* imu_in(const hw_sample_t& sample) {
   return sample.kind == HW_SAMPLE_IMU ? static_cast<const hw_imu_t*>(sample.payload) : nullptr;
+}
+
+/// The position that a sample is; null where it is of another kind.
+inline const hw_gnss_t* gnss_in(const hw_sample_t& sample) {
+  return sample.kind == HW_SAMPLE_GNSS ? static_cast<const hw_gnss_t*>(sample.payload) : nullptr;
+}
+
+/// The heading that a sample is; null where it is of another kind.
+inline const hw_magnetic_t* magnetic_in(const hw_sample_t& sample) {
+  return sample.kind == HW_SAMPLE_MAGNETIC ? static_cast<const hw_magnetic_t*>(sample.payload) : nullptr;
 }
 
 /// What a plugin does with the file or folder that a parameter names.

@@ -27,7 +27,7 @@ typedef struct hw_sensor_info_t {
   double max_range_m;       ///< farthest distance that is measured
   double noise_m[3];        ///< standard deviation along x, y, z of the sensor's frame
   /// By kind what else is known, a struct whose first member is `size`: hw_encoder_info_t (encoder.h), hw_bump_info_t (bump.h), hw_range_scan_info_t
-  /// (range_scan.h), hw_imu_info_t (imu.h); null for other kinds and where nothing is known. Since 1.4.
+  /// (range_scan.h), hw_imu_info_t (imu.h), hw_gnss_info_t (gnss.h); null for other kinds and where nothing is known. Since 1.4.
   const void* intrinsics;
   double rate_hz;         ///< readings a second; 0: one for each frame. Since 1.5.
   double latency_s;       ///< from the end of a measurement to its frame. Since 1.5.

@@ -20,7 +20,9 @@ enum {
   HW_SAMPLE_ODOMETRY = 7,    ///< hw_odometry_t (odometry.h); since 1.5
   HW_SAMPLE_IMAGE = 8,       ///< reserved
   HW_SAMPLE_DEPTH = 9,       ///< reserved
-  HW_SAMPLE_IMU = 10         ///< hw_imu_t (imu.h); since 1.5
+  HW_SAMPLE_IMU = 10,        ///< hw_imu_t (imu.h); since 1.5
+  HW_SAMPLE_GNSS = 11,       ///< hw_gnss_t (gnss.h); since 1.5
+  HW_SAMPLE_MAGNETIC = 12    ///< hw_magnetic_t (magnetic.h); since 1.5
 };
 
 /// Flag of a sample: hw_points_t.track is given.

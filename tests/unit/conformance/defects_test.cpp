@@ -266,7 +266,8 @@ INSTANTIATE_TEST_SUITE_P(Each, Defects, testing::ValuesIn(kDefects),
 TEST(Suite, EveryTestHasADefectThatItFinds) {
   // By other files: below, and samples_test.cpp.
   std::set<std::string> found{"entry-alone", "grown-intrinsics", "scan-no-returns",  "scan-no-order",
-                              "scan-layers", "imu-missing-axes", "odometry-unknown", "carried-samples"};
+                              "scan-layers", "imu-missing-axes", "odometry-unknown", "carried-samples",
+                              "gnss-no-fix", "gnss-later-fix",   "magnetic-unknown"};
   for (const Defect& defect : kDefects) found.insert(defect.fails.begin(), defect.fails.end());
   for (const conformance::Test& test : all_tests()) EXPECT_TRUE(found.contains(test.name)) << test.name;
 }

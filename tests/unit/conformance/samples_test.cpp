@@ -48,12 +48,14 @@ TEST(Samples, DefectsInReadingIntrinsicsAreFound) {
   expect_intrinsic_defects_found("encoder");
 }
 
-TEST(Samples, PluginsOfRaysOdometryAndImusAreGivenThem) {
+TEST(Samples, PluginsOfTheOtherSensorsOfRobotsAreGivenThem) {
   const DefectivePlugin none("defective_samples", "defective_samples");
   const std::map<std::string, std::vector<std::string>> own{
       {"range_scan", {"scan-no-returns", "scan-no-order", "scan-layers"}},
       {"odometry", {"odometry-unknown"}},
-      {"imu", {"imu-missing-axes", "carried-samples"}}};
+      {"imu", {"imu-missing-axes", "carried-samples"}},
+      {"gnss", {"gnss-no-fix", "gnss-later-fix"}},
+      {"magnetic", {"magnetic-unknown"}}};
   for (const auto& [plugin, tests] : own) {
     const auto skipped = expect_good(setup_of_samples(none, plugin));
     expect_reasons(skipped, "the plugin refuses no sensors");
@@ -83,6 +85,18 @@ TEST(Samples, DefectsOfPluginsOfImusAreFound) {
   expect_found("imu", {{"fails_for_missing_axes", "imu-missing-axes"},
                        {"fails_for_several", "carried-samples"},
                        {"fails_for_reserved", "reserved-members"}});
+}
+
+TEST(Samples, DefectsOfPluginsOfGnssAreFound) {
+  expect_defects_found("gnss", 1, false);
+  expect_intrinsic_defects_found("gnss", false);
+  expect_found("gnss", {{"fails_for_no_fix", "gnss-no-fix"}, {"fails_for_later_fix", "gnss-later-fix"}});
+}
+
+TEST(Samples, DefectsOfPluginsOfCompassesAreFound) {
+  expect_defects_found("magnetic", 1, false);
+  expect_found("magnetic",
+               {{"fails_for_unknown", "magnetic-unknown"}, {"fails_for_reserved", "reserved-members"}});
 }
 
 TEST(Samples, SlamPlaneIsGivenPlanes) {
