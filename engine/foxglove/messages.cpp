@@ -6,19 +6,22 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <hallway/ext/log.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "base/error.hpp"
 #include "foxglove/CompressedImage.pb.h"
 #include "foxglove/FrameTransform.pb.h"
 #include "foxglove/LaserScan.pb.h"
+#include "foxglove/LocationFix.pb.h"
 #include "foxglove/Log.pb.h"
 #include "foxglove/PointCloud.pb.h"
 #include "foxglove/PoseInFrame.pb.h"
 #include "foxglove/PosesInFrame.pb.h"
 #include "foxglove/SceneUpdate.pb.h"
-#include "foxglove/imu_json.hpp"
+#include "foxglove/reading_json.hpp"
 
 namespace hallway::foxglove {
 namespace {
@@ -33,8 +36,13 @@ const pb::Descriptor& descriptor_of(Schema schema) {
       ::foxglove::PointCloud::descriptor,  ::foxglove::FrameTransform::descriptor,
       ::foxglove::PoseInFrame::descriptor, ::foxglove::SceneUpdate::descriptor,
       ::foxglove::Log::descriptor,         ::foxglove::CompressedImage::descriptor,
-      ::foxglove::LaserScan::descriptor,   ::foxglove::PosesInFrame::descriptor};
+      ::foxglove::LaserScan::descriptor,   ::foxglove::PosesInFrame::descriptor,
+      ::foxglove::LocationFix::descriptor};
   return *kDescriptors.at(static_cast<std::size_t>(schema))();
+}
+
+bool is_json(Schema schema) {
+  return schema == Schema::kImu || schema == Schema::kCompass;
 }
 
 /// Protobuf promises the same bytes for the same message only when asked to.
@@ -137,19 +145,21 @@ void set(::foxglove::SpherePrimitive& sphere, const Ball& value) {
 }  // namespace
 
 std::string schema_name(Schema schema) {
-  return schema == Schema::kImu ? kImuSchemaName : descriptor_of(schema).full_name();
+  if (schema == Schema::kImu) return kImuSchemaName;
+  return schema == Schema::kCompass ? kCompassSchemaName : descriptor_of(schema).full_name();
 }
 
 std::string schema_encoding(Schema schema) {
-  return schema == Schema::kImu ? "jsonschema" : "protobuf";
+  return is_json(schema) ? "jsonschema" : "protobuf";
 }
 
 std::string message_encoding(Schema schema) {
-  return schema == Schema::kImu ? "json" : "protobuf";
+  return is_json(schema) ? "json" : "protobuf";
 }
 
 std::string schema_data(Schema schema) {
   if (schema == Schema::kImu) return imu_schema();
+  if (schema == Schema::kCompass) return compass_schema();
   pb::FileDescriptorSet files;
   std::set<std::string> added;
   add_file(*descriptor_of(schema).file(), added, files);
@@ -169,6 +179,20 @@ std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const
   }
   message.set_point_stride(cloud.stride);
   message.set_data(cloud.data);
+  return bytes_of(message);
+}
+
+std::string print_location_fix(std::int64_t t_ns, const std::string& frame, const LocationFix& fix) {
+  ::foxglove::LocationFix message;
+  message.set_frame_id(frame);
+  set(*message.mutable_timestamp(), t_ns);
+  message.set_latitude(fix.place.latitude_deg);
+  message.set_longitude(fix.place.longitude_deg);
+  message.set_altitude(fix.place.altitude_m);
+  if (std::ranges::any_of(fix.covariance, [](double number) { return std::isnan(number); }))
+    return bytes_of(message);
+  message.mutable_position_covariance()->Assign(fix.covariance.begin(), fix.covariance.end());
+  message.set_position_covariance_type(::foxglove::LocationFix::KNOWN);
   return bytes_of(message);
 }
 

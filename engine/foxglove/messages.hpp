@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -8,11 +9,12 @@
 #include <vector>
 
 #include "foxglove/clouds.hpp"
+#include "geometry/geodesy.hpp"
 #include "geometry/se3.hpp"
 
 namespace hallway::foxglove {
 
-// Messages in the well-known schemas of Foxglove (third_party/foxglove), as Protobuf bytes; of an IMU as JSON (imu_json.hpp). The same values give the same
+// Messages in the well-known schemas of Foxglove (third_party/foxglove), as Protobuf bytes; of IMUs and compasses as JSON (reading_json.hpp). The same values give the same
 // bytes. Times are nanoseconds, not below 0; lengths are metres; texts are UTF-8.
 
 /// The schemas that are written.
@@ -25,7 +27,9 @@ enum class Schema : std::uint8_t {
   kCompressedImage,
   kLaserScan,
   kPosesInFrame,
+  kLocationFix,
   kImu,
+  kCompass,
 };
 
 /// The schema's name: "foxglove.PointCloud", ….
@@ -81,6 +85,15 @@ struct LogLine {
 
 /// foxglove.PointCloud.
 std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const Cloud& cloud);
+/// A fix of a receiver. The covariance is in its own level frame, row by row; NaN: not known.
+struct LocationFix {
+  GeoPoint place{};
+  std::array<double, 9> covariance{};
+};
+
+/// foxglove.LocationFix.
+std::string print_location_fix(std::int64_t t_ns, const std::string& frame, const LocationFix& fix);
+
 /// foxglove.LaserScan.
 std::string print_laser_scan(std::int64_t t_ns, const std::string& frame, const LevelScan& scan);
 /// foxglove.FrameTransform: where `child` stands in `parent`.

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <hallway/ext/log.h>
+#include <hallway/gnss.h>
 #include <hallway/imu.h>
+#include <hallway/magnetic.h>
 #include <hallway/odometry.h>
 
 #include <limits>
@@ -12,7 +14,7 @@
 #include "base/error.hpp"
 #include "foxglove/clouds.hpp"
 #include "foxglove/frames.hpp"
-#include "foxglove/imu_json.hpp"
+#include "foxglove/reading_json.hpp"
 #include "foxglove/scenes.hpp"
 #include "geom/arrays.hpp"
 
@@ -22,9 +24,12 @@ namespace {
 namespace topics {
 constexpr const char* kTransforms = "/foxglove/tf/";  ///< and the child's name
 constexpr const char* kPoints = "/foxglove/points";
-constexpr const char* kRays = "/foxglove/rays/";          ///< and the sensor's frame
-constexpr const char* kScans = "/foxglove/scan/";         ///< likewise, of level scans
-constexpr const char* kImu = "/foxglove/imu/";            ///< likewise
+constexpr const char* kRays = "/foxglove/rays/";   ///< and the sensor's frame
+constexpr const char* kScans = "/foxglove/scan/";  ///< likewise, of level scans
+constexpr const char* kImu = "/foxglove/imu/";     ///< likewise
+constexpr const char* kFixes =
+    "/foxglove/location/";  ///< likewise, of receivers whose place on Earth is known
+constexpr const char* kCompass = "/foxglove/compass/";    ///< likewise
 constexpr const char* kOdometry = "/foxglove/odometry/";  ///< likewise
 constexpr const char* kPose = "/foxglove/pose";
 constexpr const char* kPath = "/foxglove/path";
@@ -63,8 +68,12 @@ View::View(log::McapWriter& log, const ViewOptions& options)
     : log_(log), options_(options), next_id_(options.first_id) {}
 
 void View::set_sensors(std::span<const host::SensorInfo> sensors) {
-  for (const host::SensorInfo& sensor : sensors)
+  for (const host::SensorInfo& sensor : sensors) {
     T_body_sensor_[sensor.id] = to_pose(sensor.T_body_sensor.position, sensor.T_body_sensor.orientation);
+    const auto* gnss = std::get_if<host::GnssIntrinsics>(&sensor.intrinsics);
+    if (gnss != nullptr && !std::isnan(gnss->latitude_deg + gnss->longitude_deg + gnss->altitude_m))
+      origins_[sensor.id] = {gnss->latitude_deg, gnss->longitude_deg, gnss->altitude_m};
+  }
 }
 
 void View::set_true_landmarks(std::span<const log::Landmark> landmarks) {
@@ -93,7 +102,15 @@ void View::add_sample(const log::FrameStamp& stamp, const hw_sample_t& sample) {
       scans_[sample.sensor_id] = &sample;
       break;
     case HW_SAMPLE_IMU:
-      add_imu(stamp, sample);
+      put(topics::kImu + frames::sensor(sample.sensor_id), Schema::kImu, own_stamp(stamp, sample),
+          print_imu(own_stamp(stamp, sample).t_ns, *static_cast<const hw_imu_t*>(sample.payload)));
+      break;
+    case HW_SAMPLE_MAGNETIC:
+      put(topics::kCompass + frames::sensor(sample.sensor_id), Schema::kCompass, own_stamp(stamp, sample),
+          print_compass(own_stamp(stamp, sample).t_ns, *static_cast<const hw_magnetic_t*>(sample.payload)));
+      break;
+    case HW_SAMPLE_GNSS:
+      add_fix(own_stamp(stamp, sample), sample);
       break;
     case HW_SAMPLE_ODOMETRY: {
       const hw_pose_t& pose = static_cast<const hw_odometry_t*>(sample.payload)->T_odom_sensor;
@@ -125,13 +142,24 @@ void View::add_scan(const log::FrameStamp& stamp, const hw_sample_t& sample) {
 
 /// Several readings of a frame would be at one time in a plot: each has the log time of its own end, unless that is far from the frame's, which may be the
 /// case by a clock that is wrong.
-void View::add_imu(const log::FrameStamp& stamp, const hw_sample_t& sample) {
+log::FrameStamp View::own_stamp(const log::FrameStamp& stamp, const hw_sample_t& sample) {
   constexpr std::int64_t kLongest_ns = 900'000'000;
   const std::int64_t t_ns = sample.t_end_ns;
   const bool is_near = t_ns >= 0 && t_ns <= stamp.t_ns && t_ns >= stamp.t_ns - kLongest_ns;
-  const log::FrameStamp own{stamp.iteration, is_near ? t_ns : stamp.t_ns};
-  put(topics::kImu + frames::sensor(sample.sensor_id), Schema::kImu, own,
-      print_imu(own.t_ns, *static_cast<const hw_imu_t*>(sample.payload)));
+  return {stamp.iteration, is_near ? t_ns : stamp.t_ns};
+}
+
+/// Of a receiver whose origin on Earth is known, with a fix.
+void View::add_fix(const log::FrameStamp& stamp, const hw_sample_t& sample) {
+  const auto& gnss = *static_cast<const hw_gnss_t*>(sample.payload);
+  const auto origin = origins_.find(sample.sensor_id);
+  if (gnss.fix == HW_GNSS_NO_FIX || origin == origins_.end()) return;
+  const double* c = gnss.covariance;
+  const LocationFix fix{
+      .place = place_at(origin->second, Vec3(gnss.position_m[0], gnss.position_m[1], gnss.position_m[2])),
+      .covariance = {c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5]}};
+  const std::string frame = frames::sensor(sample.sensor_id);
+  put(topics::kFixes + frame, Schema::kLocationFix, stamp, print_location_fix(stamp.t_ns, frame, fix));
 }
 
 /// In the world until a true pose of the same frame says where it belongs.

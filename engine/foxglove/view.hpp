@@ -30,7 +30,7 @@ struct ViewOptions {
 
 /// Shows a run in Foxglove: beside what stands in a log already, the same once more in messages of the well-known schemas
 /// (docs/formats.md). Each function is called after the message of the run's own channel was written. Same calls, same bytes;
-/// all times are those of the frames, but for an IMU's readings. A message that is too large for a log is left out, and the log channel says so. All functions throw
+/// all times are those of the frames, but for readings of IMUs, compasses and receivers of satellites. A message that is too large for a log is left out, and the log channel says so. All functions throw
 /// Error{kIo}.
 class View {
  public:
@@ -42,7 +42,7 @@ class View {
   /// Where the true landmarks are; before the first frame.
   void set_true_landmarks(std::span<const log::Landmark> landmarks);
 
-  /// What the sensors saw: points, rays, odometry and readings of IMUs. Samples of other kinds are passed over.
+  /// What the sensors saw: points, rays, odometry, positions, and readings of IMUs and compasses. Samples of other kinds are passed over.
   void add_frame(const log::FrameStamp& stamp, const hw_frame_t& frame);
   void add_true_pose(const log::FrameStamp& stamp, const log::IterationPose& pose);
   void add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose);
@@ -67,7 +67,8 @@ class View {
   void begin();
   void add_sample(const log::FrameStamp& stamp, const hw_sample_t& sample);
   void add_scan(const log::FrameStamp& stamp, const hw_sample_t& sample);
-  void add_imu(const log::FrameStamp& stamp, const hw_sample_t& sample);
+  static log::FrameStamp own_stamp(const log::FrameStamp& stamp, const hw_sample_t& sample);
+  void add_fix(const log::FrameStamp& stamp, const hw_sample_t& sample);
   void put_odometry(const log::FrameStamp& stamp, std::uint32_t sensor, const Pose& T_odom_sensor);
   void place_odometry(const log::FrameStamp& stamp, const Pose& T_world_body);
   void place_sensor(const log::FrameStamp& stamp, std::uint32_t sensor);
@@ -96,6 +97,7 @@ class View {
   std::optional<Entity> body_;
   std::uint32_t contacts_ = 0;
   std::map<std::uint32_t, Pose> T_body_sensor_;  ///< by the sensor's id
+  std::map<std::uint32_t, GeoPoint> origins_;    ///< likewise, of receivers of satellites
   std::set<std::uint32_t> placed_sensors_;
   std::map<std::uint32_t, const hw_sample_t*> scans_;       ///< the last of this frame, by the sensor's id
   std::map<std::uint32_t, std::int64_t> scan_shown_at_ns_;  ///< the last one that was shown

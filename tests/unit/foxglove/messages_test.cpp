@@ -174,14 +174,17 @@ std::vector<KnownSchema> known_schemas() {
           {Schema::kLaserScan,
            print_laser_scan(1, "f",
                             {.start_rad = -1.0, .end_rad = 1.0, .ranges = {1, 2}, .intensities = {3, 4}})},
-          {Schema::kPosesInFrame, print_poses(1, "a", std::vector{kPose, kPose})}};
+          {Schema::kPosesInFrame, print_poses(1, "a", std::vector{kPose, kPose})},
+          {Schema::kLocationFix,
+           print_location_fix(1, "f", {.place = {48, 11, 500}, .covariance = {4, 0, 0, 0, 4, 0, 0, 0, 9}})}};
 }
 
 /// Nothing that is linked into this program helps: the pool knows only what stands in the record.
 TEST(FoxgloveMessages, ASchemaRecordIsEnoughToReadItsMessages) {
   const std::vector<std::string> names{
       "foxglove.PointCloud", "foxglove.FrameTransform",  "foxglove.PoseInFrame", "foxglove.SceneUpdate",
-      "foxglove.Log",        "foxglove.CompressedImage", "foxglove.LaserScan",   "foxglove.PosesInFrame"};
+      "foxglove.Log",        "foxglove.CompressedImage", "foxglove.LaserScan",   "foxglove.PosesInFrame",
+      "foxglove.LocationFix"};
   const auto known = known_schemas();
   ASSERT_EQ(known.size(), names.size());
   for (std::size_t i = 0; i < known.size(); ++i) {

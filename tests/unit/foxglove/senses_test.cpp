@@ -4,6 +4,7 @@
 #include <google/protobuf/dynamic_message.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -11,7 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "foxglove/view.hpp"
+#include "host/samples/gnss_kind.hpp"
 #include "host/samples/imu_kind.hpp"
+#include "host/samples/magnetic_kind.hpp"
 #include "host/samples/odometry_kind.hpp"
 #include "host/samples/range_scan_kind.hpp"
 #include "log/mcap_reader.hpp"
@@ -86,7 +89,13 @@ class Senses {
     host::SensorInfo mounted;
     mounted.id = 1;
     mounted.T_body_sensor = {{0.5, 0.25, 0.125}, {1, 0, 0, 0}};
-    view_.set_sensors({&mounted, 1});
+    host::SensorInfo receiver;
+    receiver.id = 7;
+    receiver.kind = HW_SAMPLE_GNSS;
+    receiver.intrinsics =
+        host::GnssIntrinsics{.latitude_deg = 48.0, .longitude_deg = 11.0, .altitude_m = 500.0};
+    const std::array sensors{mounted, receiver};
+    view_.set_sensors(sensors);
   }
   host::FrameBuilder& begin(std::uint32_t iteration) {
     stamp_ = {iteration, kPeriod_ns * iteration};
@@ -258,6 +267,55 @@ TEST(FoxgloveSenses, ReadingsOfAnImuArePlainNumbersAtTheirOwnTimes) {
     }
   }
   EXPECT_EQ(topics.at("/foxglove/imu/sensor_5").at(0).log_time_ns, 300'000'000u) << "that of the frame";
+}
+
+TEST(FoxgloveSenses, AFixIsAPlaceOnEarthWhereTheOriginIsKnown) {
+  Senses senses;
+  host::FrameBuilder& builder = senses.begin(3);
+  const auto add = [&](std::uint32_t sensor, std::uint64_t k, bool has_fix) {
+    hw_gnss_t& gnss = host::add_gnss(builder, sensor);
+    builder.set_reading(k, 200'000'000 + static_cast<std::int64_t>(k),
+                        200'000'000 + static_cast<std::int64_t>(k));
+    if (!has_fix) return;
+    gnss.fix = HW_GNSS_POSITION;
+    gnss.position_m[0] = 100.0;  // east
+    gnss.position_m[1] = gnss.position_m[2] = 0.0;
+    for (int i = 0; i < 6; ++i) gnss.covariance[i] = 1.0 + i;
+  };
+  add(7, 1, true);
+  add(7, 2, false);
+  add(8, 1, true);  // nobody knows where on Earth
+  senses.end();
+  const Topics topics = senses.topics();
+  EXPECT_FALSE(topics.contains("/foxglove/location/sensor_8"));
+  const std::vector<Logged>& fixes = topics.at("/foxglove/location/sensor_7");
+  ASSERT_EQ(fixes.size(), 1u);
+  EXPECT_EQ(fixes[0].log_time_ns, 200'000'001u);
+  Reader reader(fixes[0].schema.data);
+  const auto fix = reader.read("foxglove.LocationFix", fixes[0].data);
+  const GeoPoint expected = place_at({48.0, 11.0, 500.0}, {100, 0, 0});
+  EXPECT_EQ(real(*fix, "latitude"), expected.latitude_deg);
+  EXPECT_EQ(real(*fix, "longitude"), expected.longitude_deg);
+  EXPECT_EQ(real(*fix, "altitude"), expected.altitude_m);
+  EXPECT_EQ(reals(*fix, "position_covariance"), (std::vector<double>{1, 2, 3, 2, 4, 5, 3, 5, 6}));
+}
+
+TEST(FoxgloveSenses, HeadingsArePlainNumbers) {
+  Senses senses;
+  host::FrameBuilder& builder = senses.begin(3);
+  host::add_magnetic(builder, 4).heading_rad = 0.25;
+  host::add_magnetic(builder, 4);  // not known
+  senses.end();
+  const Topics topics = senses.topics();
+  const std::vector<Logged>& headings = topics.at("/foxglove/compass/sensor_4");
+  ASSERT_EQ(headings.size(), 2u);
+  EXPECT_EQ(headings[0].schema.name, "hallway.Compass");
+  const auto first = nlohmann::ordered_json::parse(headings[0].data);
+  EXPECT_EQ(first.at("heading_rad").get<double>(), 0.25);
+  EXPECT_FALSE(first.contains("variance_rad2"));
+  EXPECT_FALSE(nlohmann::ordered_json::parse(headings[1].data).contains("heading_rad"));
+  const auto schema = nlohmann::ordered_json::parse(headings[0].schema.data);
+  for (const auto& [name, value] : first.items()) EXPECT_TRUE(schema.at("properties").contains(name)) << name;
 }
 
 TEST(FoxgloveSenses, OdometryBeginsWhereTheRobotTrulyIs) {
