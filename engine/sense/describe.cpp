@@ -35,10 +35,32 @@ host::BumpZoneInfo zone_info(const BumpZone& zone) {
           .top_m = height_or_unknown(zone.top_m, BumpZone{}.top_m)};
 }
 
+/// The width about the head's x axis that a beam is within.
+double width_about_middle(const EchoBeamSpec& beam) {
+  if (beam.polygon.empty()) return beam.cone_rad;
+  const EchoSpan span = echo_span(beam.polygon);
+  const double beside = std::max(std::abs(span.from_rad), std::abs(span.from_rad + span.width_rad));
+  return std::min(2.0 * beside, 2.0 * std::numbers::pi);
+}
+
 /// With when it measures.
 host::SensorInfo timed(host::SensorInfo info, const SensorTiming& timing) {
   info.rate_hz = timing.rate_hz;
   info.latency_s = timing.latency_s;
+  return info;
+}
+
+/// What all sensors that send beams have.
+template <typename Spec>
+host::SensorInfo ranging(const Spec& spec, std::uint32_t id, double noise_m) {
+  host::SensorInfo info = timed({.id = id,
+                                 .kind = HW_SAMPLE_RANGE_SCAN,
+                                 .name = spec.name,
+                                 .T_body_sensor = abi_pose(spec.T_body_sensor),
+                                 .min_range_m = spec.min_range_m,
+                                 .max_range_m = spec.max_range_m},
+                                spec.timing);
+  info.noise_m[0] = noise_m;
   return info;
 }
 
@@ -80,14 +102,7 @@ host::SensorInfo describe(const EncoderSensorSpec& spec, std::uint32_t id) {
 }
 
 host::SensorInfo describe(const LidarSpec& spec, std::uint32_t id, double scan_s) {
-  host::SensorInfo info = timed({.id = id,
-                                 .kind = HW_SAMPLE_RANGE_SCAN,
-                                 .name = spec.name,
-                                 .T_body_sensor = abi_pose(spec.T_body_sensor),
-                                 .min_range_m = spec.min_range_m,
-                                 .max_range_m = spec.max_range_m},
-                                spec.timing);
-  info.noise_m[0] = spec.response.noise_m;
+  host::SensorInfo info = ranging(spec, id, spec.response.noise_m);
   info.noise_per_m[0] = spec.response.noise_per_m;
   info.intrinsics = host::RangeScanIntrinsics{.width = spec.pattern.width,
                                               .height = spec.pattern.height,
@@ -95,6 +110,43 @@ host::SensorInfo describe(const LidarSpec& spec, std::uint32_t id, double scan_s
                                               .beam_rad = spec.beam.divergence_rad,
                                               .scan_s = scan_s};
   return info;
+}
+
+host::SensorInfo describe(const SonarSpec& spec, std::uint32_t id) {
+  host::SensorInfo info = ranging(spec, id, spec.response.noise_m);
+  info.noise_per_m[0] = spec.response.noise_per_m;
+  info.intrinsics = host::RangeScanIntrinsics{.width = spec.pings.width,
+                                              .height = spec.pings.height,
+                                              .layers = spec.echoes,
+                                              .beam_rad = width_about_middle(spec.beam),
+                                              .scan_s = static_cast<double>(spec.sweep_ns) * 1e-9};
+  return info;
+}
+
+host::SensorInfo describe(const InfraredSpec& spec, std::uint32_t id) {
+  host::SensorInfo info = ranging(spec, id, spec.noise_m);
+  info.intrinsics = host::RangeScanIntrinsics{.width = spec.rays.width,
+                                              .height = spec.rays.height,
+                                              .layers = 1,
+                                              .scan_s = static_cast<double>(spec.duration_ns) * 1e-9};
+  return info;
+}
+
+host::SensorInfo describe(const GnssSpec& spec, std::uint32_t id) {
+  host::SensorInfo info = timed(
+      {.id = id, .kind = HW_SAMPLE_GNSS, .name = spec.name, .T_body_sensor = abi_pose(spec.T_body_sensor)},
+      spec.timing);
+  info.noise_m[0] = info.noise_m[1] = std::hypot(spec.level.noise_m, spec.level.correlated_m);
+  info.noise_m[2] = std::hypot(spec.height.noise_m, spec.height.correlated_m);
+  return info;
+}
+
+host::SensorInfo describe(const CompassSpec& spec, std::uint32_t id) {
+  return timed({.id = id,
+                .kind = HW_SAMPLE_MAGNETIC,
+                .name = spec.name,
+                .T_body_sensor = abi_pose(spec.T_body_sensor)},
+               spec.timing);
 }
 
 host::SensorInfo describe(const ImuSensorSpec& spec, std::uint32_t id) {

@@ -9,23 +9,17 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
+#include "sense/light_path.hpp"
 #include "sense/spec_check.hpp"
 
 namespace hallway::sense {
 namespace {
 
-constexpr double kNoReturn_m = std::numeric_limits<double>::infinity();
-constexpr double kUnanswered_m = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostProbes = 5;
-
-Vec3 direction_of(double azimuth_rad, double elevation_rad) {
-  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
-          std::sin(elevation_rad)};
-}
 
 /// A ray beside a beam's middle: turned by an angle to the left and upwards, across the beam.
 Vec3 beside(const PatternRay& ray, double left_rad, double up_rad) {
-  const Vec3 middle = direction_of(ray.azimuth_rad, ray.elevation_rad);
+  const Vec3 middle = direction_of(ray);
   const Vec3 left(-std::sin(ray.azimuth_rad), std::cos(ray.azimuth_rad), 0.0);
   const Vec3 up = middle.cross(left);
   return (middle + std::tan(left_rad) * left + std::tan(up_rad) * up).normalized();
@@ -39,6 +33,7 @@ LidarSensor::LidarSensor(LidarSpec spec, const trace::Scene& scene, const Surfac
       scene_(scene),
       surfaces_(surfaces),
       random_(seed, stream_id("sensor.lidar." + spec_.name)),
+      panes_(seed, stream_id("sensor.lidar.panes." + spec_.name)),
       n_probes_(spec_.beam.divergence_rad > 0.0 ? kMostProbes : 1) {
   check();
   if (scan_ns < 0) throw Error(ErrorCode::kInternal, "a scan that takes less than no time");
@@ -48,7 +43,7 @@ LidarSensor::LidarSensor(LidarSpec spec, const trace::Scene& scene, const Surfac
   for (std::size_t probe = 0; probe < n_probes_; ++probe) {
     for (const PatternRay& ray : spec_.pattern.rays)
       directions_[probe].push_back(probe == 0
-                                       ? direction_of(ray.azimuth_rad, ray.elevation_rad)
+                                       ? direction_of(ray)
                                        : beside(ray, half * kAside.at(probe)[0], half * kAside.at(probe)[1]));
   }
   find_moments(scan_ns);
@@ -105,7 +100,7 @@ void LidarSensor::find_own_body(const OwnBody& body) {
   for (std::size_t probe = 0; probe < n_probes_; ++probe) {
     for (const Vec3& direction : directions_[probe]) {
       const double entry = body.entry_m(spec_.T_body_sensor.t, spec_.T_body_sensor.q * direction);
-      own_body_m_[probe].push_back(entry <= spec_.max_range_m ? entry : kNoReturn_m);
+      own_body_m_[probe].push_back(entry <= spec_.max_range_m ? entry : kNothing_m);
       is_seen = is_seen || entry <= spec_.max_range_m;
     }
   }
@@ -126,8 +121,8 @@ std::vector<LidarSensor::View> LidarSensor::views(std::uint32_t scan, std::int64
 }
 
 /// What the rays of one probe of the beams [begin, end) meet.
-void LidarSensor::meet(std::span<const View> views, std::size_t begin, std::size_t end, std::size_t probe,
-                       std::span<Met> met) const {
+void LidarSensor::meet(std::uint32_t scan, std::span<const View> views, std::size_t begin, std::size_t end,
+                       std::size_t probe, std::span<Met> met) const {
   constexpr std::size_t kAtOnce = 256;
   std::array<trace::Ray, kAtOnce> rays;
   std::array<std::optional<trace::Hit>, kAtOnce> hits;
@@ -138,9 +133,14 @@ void LidarSensor::meet(std::span<const View> views, std::size_t begin, std::size
       rays[i] = {view.origin, view.R_world_sensor * directions_[probe][first + i], spec_.max_range_m};
     }
     scene_.first_hits({rays.data(), n}, {hits.data(), n});
+    for (std::size_t i = 0; surfaces_.is_transparent() && i < n; ++i) {
+      if (!hits[i] || surfaces_.material(hits[i]->triangle).transparency == 0.0) continue;
+      const std::uint64_t beam = probe * directions_[0].size() + first + i;
+      hits[i] = light_end(scene_, surfaces_, rays[i], panes_, scan, beam * kMostPanes);
+    }
     for (std::size_t i = 0; i < n; ++i) {
       Met& one = met[first + i - begin];
-      one = hits[i] ? Met{hits[i]->distance, hits[i]->triangle} : Met{kNoReturn_m, LidarTruth::kNothing};
+      one = hits[i] ? Met{hits[i]->distance, hits[i]->triangle} : Met{kNothing_m, LidarTruth::kNothing};
       if (own_body_m_.empty()) continue;
       const double own_m = own_body_m_[probe][first + i];
       if (own_m < one.range_m) one = {own_m, LidarTruth::kOwnBody};
@@ -180,7 +180,7 @@ void LidarSensor::put(std::uint32_t scan, std::size_t ray, std::uint32_t layer, 
   }
   range_m = true_m + response.sigma_m(true_m, cosine) * draws.range;
   if (range_m > spec_.max_range_m) {
-    range_m = kNoReturn_m;
+    range_m = kNothing_m;
     return;
   }
   if (range_m < spec_.min_range_m || range_m < 0.0) {
@@ -205,7 +205,7 @@ LidarSensor::Returns LidarSensor::group(std::span<const std::vector<Met>> met, s
   }
   for (const std::vector<Met>& probe : met) {
     const Met& one = probe[beam];
-    if (one.range_m == kNoReturn_m) continue;
+    if (one.range_m == kNothing_m) continue;
     Return& into = one.range_m <= returns.near.what.range_m + spec_.beam.pulse_m ? returns.near : returns.far;
     if (one.range_m < into.what.range_m) into.what = one;
     into.sum_m += one.range_m;
@@ -217,7 +217,7 @@ LidarSensor::Returns LidarSensor::group(std::span<const std::vector<Met>> met, s
 void LidarSensor::measure(std::uint32_t scan, std::span<const View> views, std::size_t begin, std::size_t end,
                           LidarReading& reading, LidarTruth& truth) const {
   std::vector<std::vector<Met>> met(n_probes_, std::vector<Met>(end - begin));
-  for (std::size_t probe = 0; probe < n_probes_; ++probe) meet(views, begin, end, probe, met[probe]);
+  for (std::size_t probe = 0; probe < n_probes_; ++probe) meet(scan, views, begin, end, probe, met[probe]);
   for (std::size_t ray = begin; ray < end; ++ray) {
     const Vec3 direction = views[moment_of_[ray]].R_world_sensor * directions_[0][ray];
     truth.range_m[ray] = met[0][ray - begin].range_m;
@@ -225,7 +225,7 @@ void LidarSensor::measure(std::uint32_t scan, std::span<const View> views, std::
     const Returns returns = group(met, ray - begin);
     const bool takes_far = spec_.returns == 1 && returns.far.hits > returns.near.hits;
     const Return& first = takes_far ? returns.far : returns.near;
-    put(scan, ray, 0, first, kNoReturn_m, direction, reading);
+    put(scan, ray, 0, first, kNothing_m, direction, reading);
     label(ray, first, reading, truth);
     if (spec_.returns == 1) continue;
     put(scan, ray, 1, returns.far, kUnanswered_m, direction, reading);

@@ -70,8 +70,9 @@ struct LidarTruth {
 ///
 /// A beam without an answer (drop-out, a hit nearer than the least range, a measured range below it) is NaN: unknown. A beam that meets nothing up to the
 /// greatest range, or whose measured range is beyond it, is +Inf: free. The sensor's own robot is met where it stands in the beam, unless the sensor is
-/// in the body. Surfaces are met from both sides. All random numbers are keyed by (seed, sensor's name, scan, ray). Left out: light, weather,
-/// multiple reflections, mirrors and glass other than by drop-outs, crosstalk, quantisation.
+/// in the body. Surfaces are met from both sides. All random numbers are keyed by (seed, sensor's name, scan, ray). Each beam goes through a
+/// surface with the probability of its material's transparency (light_path.hpp). Left out: light, weather, multiple reflections, mirrors other than by
+/// drop-outs, a part of a beam that goes through glass while another part is returned, crosstalk, quantisation.
 class LidarSensor {
  public:
   /// Keeps references to `scene` and `surfaces`, which must outlive the sensor. Throws Error{kBadInput} that names the sensor and the member for a
@@ -120,8 +121,8 @@ class LidarSensor {
   void find_moments(std::int64_t scan_ns);
   void find_own_body(const OwnBody& body);
   std::vector<View> views(std::uint32_t scan, std::int64_t t_begin_ns, const Trajectory& trajectory) const;
-  void meet(std::span<const View> views, std::size_t begin, std::size_t end, std::size_t probe,
-            std::span<Met> met) const;
+  void meet(std::uint32_t scan, std::span<const View> views, std::size_t begin, std::size_t end,
+            std::size_t probe, std::span<Met> met) const;
   void measure(std::uint32_t scan, std::span<const View> views, std::size_t begin, std::size_t end,
                LidarReading& reading, LidarTruth& truth) const;
   Returns group(std::span<const std::vector<Met>> met, std::size_t beam) const;
@@ -133,6 +134,7 @@ class LidarSensor {
   const trace::Scene& scene_;
   const Surfaces& surfaces_;
   Random random_;
+  Random panes_;                                 ///< whether a beam goes through a surface
   std::size_t n_probes_;                         ///< rays for each beam
   std::vector<std::vector<Vec3>> directions_;    ///< by probe, then by ray: unit, sensor frame
   std::vector<std::vector<double>> own_body_m_;  ///< likewise, empty: it is in no beam

@@ -29,6 +29,11 @@ bool is_elevation(double angle) {
 
 }  // namespace
 
+Vec3 direction_of(const PatternRay& ray) {
+  return {std::cos(ray.elevation_rad) * std::cos(ray.azimuth_rad),
+          std::cos(ray.elevation_rad) * std::sin(ray.azimuth_rad), std::sin(ray.elevation_rad)};
+}
+
 RayPattern spinning_pattern(const SpinSpec& spec) {
   if (!is_azimuth(spec.from_rad)) refuse_pattern("the first azimuth is not within a turn of 0");
   if (spec.columns == 0) refuse_pattern("a scan has no column");

@@ -3,9 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "geometry/se3.hpp"
+
 namespace hallway::sense {
+
+/// Ranges of rays that have none: nothing is in range; there is no answer.
+inline constexpr double kNothing_m = std::numeric_limits<double>::infinity();
+inline constexpr double kUnanswered_m = std::numeric_limits<double>::quiet_NaN();
 
 /// A beam of a scanner: where it points in the sensor's frame (x forward, y left, z up), and when.
 struct PatternRay {
@@ -14,6 +21,9 @@ struct PatternRay {
   double share = 0.0;          ///< of the scan's duration that has passed when it is measured, in [0, 1)
   std::uint32_t ring = 0;      ///< that measures it
 };
+
+/// The way of a beam: unit, in the sensor's frame.
+Vec3 direction_of(const PatternRay& ray);
 
 /// The beams of one scan.
 struct RayPattern {

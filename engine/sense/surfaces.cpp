@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/error.hpp"
@@ -21,6 +22,11 @@ Surfaces::Surfaces(const trace::TriangleMesh& mesh, std::vector<SurfaceMaterial>
     const std::string what = "material `" + printable(material.name) + "`: ";
     if (!is_share(material.reflectivity)) refuse(what + "reflectivity must be in [0, 1]");
     if (!is_share(material.dropout)) refuse(what + "dropout must be in [0, 1]");
+    if (!is_share(material.infrared)) refuse(what + "infrared must be in [0, 1]");
+    if (!is_share(material.transparency)) refuse(what + "transparency must be in [0, 1]");
+    is_transparent_ = is_transparent_ || material.transparency > 0.0;
+    if (!(material.echo_angle_rad >= 0.0 && material.echo_angle_rad <= std::numbers::pi / 2.0))
+      refuse(what + "echo_angle_rad must be from 0 to a quarter turn");
   }
   if (material_.empty()) material_.resize(mesh.triangles.size());
   if (material_.size() != mesh.triangles.size()) refuse("as many materials as triangles are needed");

@@ -18,6 +18,12 @@ struct SurfaceMaterial {
   double reflectivity =
       0.5;               ///< share of the light that is scattered back from a beam along the normal, [0, 1]
   double dropout = 0.0;  ///< share of beams that get no answer, [0, 1]
+  double infrared =
+      0.5;  ///< share of infrared light that is scattered back from a beam along the normal, [0, 1]
+  double transparency =
+      0.0;  ///< share of light beams that go through each of the surface's triangles, [0, 1]
+  /// Up to this angle of incidence sound comes back, beyond it the surface is a mirror; [0, pi / 2], pi / 2: rough, it always comes back.
+  double echo_angle_rad = 1.5707963267948966;
 };
 
 /// What sensors that send beams know of a scene's triangles beside their places.
@@ -40,11 +46,14 @@ class Surfaces {
     return cosine < -1.0 || cosine > 1.0 ? 1.0 : (cosine < 0.0 ? -cosine : cosine);
   }
   const SurfaceMaterial& material(std::uint32_t triangle) const { return materials_[material_[triangle]]; }
+  /// Whether light goes through any material.
+  bool is_transparent() const { return is_transparent_; }
 
  private:
   std::vector<Eigen::Vector3f> normals_;
   std::vector<SurfaceMaterial> materials_;
   std::vector<std::uint16_t> material_;
+  bool is_transparent_ = false;
 };
 
 }  // namespace hallway::sense
