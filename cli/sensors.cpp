@@ -12,6 +12,7 @@
 #include "map/sensors.hpp"
 #include "robot_settings.hpp"
 #include "shared_options.hpp"
+#include "sim/sensor_presets.hpp"
 #include "sim/sensors.hpp"
 
 namespace hallway::cli {
@@ -56,6 +57,8 @@ std::string values_text(const map::KeySpec& key) {
       return "one or three, " + range;
     case map::KeyKind::kVector:
       return "three, " + range;
+    case map::KeyKind::kList:
+      return "a list, " + range;
     case map::KeyKind::kText:
       return "the name of a file";
     default:

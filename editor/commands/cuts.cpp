@@ -71,6 +71,11 @@ constexpr std::array kAdded{
     kWhat,
     ArgSpec{"order", ArgKind::kWhole, "when it is added [after all cuts that it is in]"}.within(-1e6, 1e6),
     kName};
+constexpr std::array kGnssZone{
+    kWhat,
+    ArgSpec{"factor", ArgKind::kNumber, "by which errors grow in it, at least 1; 0: there is no fix", "0"}
+        .within(0, 1e6),
+    kName};
 constexpr std::array kIntersect{kWhat, ArgSpec{"with", ArgKind::kWhat, "the other brushes"}.needed(), kName};
 constexpr std::array kHollow{
     kWhat,
@@ -188,15 +193,14 @@ std::string inherited_name(const State& state, const std::vector<Thing>& things)
   return name_of(*state.entities[things.front().entity]);
 }
 
-/// Makes brushes one entity of a class, with the order that is given or else `order`. They leave where they are.
+/// Makes brushes one entity of a class, with a key. They leave where they are.
 void become_entity(Edit& edit, const Arguments& arguments, const char* classname,
-                   const std::vector<Thing>& brushes, std::int64_t order) {
+                   const std::vector<Thing>& brushes, map::KeyValue key) {
   State& state = edit.state;
-  if (arguments.has("order")) order = arguments.whole("order");
   std::string name = arguments.text_or_empty("name");
   if (name.empty()) name = inherited_name(state, resolve(state, arguments.text("what")));
   map::Entity entity;
-  entity.keys = {{"classname", classname}, {"order", std::to_string(order)}};
+  entity.keys = {{"classname", classname}, std::move(key)};
   entity.brushes = copies_of(state, brushes);
   const auto group_at = [&](const Thing& thing) { return group_of(*state.entities[thing.entity]); };
   const std::string group = group_at(brushes.front());
@@ -210,16 +214,29 @@ void become_entity(Edit& edit, const Arguments& arguments, const char* classname
   say_made(edit, {add_entity(state, std::move(entity))});
 }
 
+/// The order that is given, or else `order`.
+map::KeyValue order_key(const Arguments& arguments, std::int64_t order) {
+  return {"order", std::to_string(arguments.has("order") ? arguments.whole("order") : order)};
+}
+
 void subtract(Edit& edit, const Arguments& arguments) {
   const auto brushes = solids_of(edit.state, "subtract", arguments.text("what"));
-  become_entity(edit, arguments, "hw_subtract", brushes, order_after(edit.state, brushes));
+  become_entity(edit, arguments, "hw_subtract", brushes,
+                order_key(arguments, order_after(edit.state, brushes)));
+}
+
+void make_gnss_zone(Edit& edit, const Arguments& arguments) {
+  const double factor = arguments.number("factor");
+  if (factor > 0.0 && factor < 1.0) refuse("gnss_zone: factor is below 1; 0 is for no fix at all");
+  become_entity(edit, arguments, "hw_gnss_zone", solids_of(edit.state, "gnss_zone", arguments.text("what")),
+                {"factor", format_double(factor)});
 }
 
 /// Makes solid brushes one entity of a class, whose order is that of what stands in cuts.
 void make_added(Edit& edit, const Arguments& arguments, const char* command, const char* classname) {
   const auto brushes = solids_of(edit.state, command, arguments.text("what"));
   become_entity(edit, arguments, classname, brushes,
-                order_among_cuts(edit.state, copies_of(edit.state, brushes)));
+                order_key(arguments, order_among_cuts(edit.state, copies_of(edit.state, brushes))));
 }
 
 void make_solid(Edit& edit, const Arguments& arguments) {
@@ -422,6 +439,13 @@ constexpr std::array kCutsCommands{
                 .example = "detail table",
                 .before = "room from 0,0 to 5,4 name=kitchen\nbox from 1,1 to 2,2,0.7 name=table",
                 .run = &make_detail},
+    CommandSpec{.name = "gnss_zone",
+                .summary = "make brushes a place where satellites are badly seen",
+                .details = "They are no longer solid.",
+                .arguments = kGnssZone,
+                .example = "gnss_zone roof factor=5",
+                .before = "box from 0,0 to 8,4,3 name=roof",
+                .run = &make_gnss_zone},
     CommandSpec{.name = "intersect",
                 .summary = "keep only what two sets of brushes have in common",
                 .arguments = kIntersect,

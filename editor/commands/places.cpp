@@ -51,6 +51,7 @@ constexpr std::array kSensor{
     ArgSpec{"yaw", ArgKind::kAngle, "turn on the robot about z, to the left [0]"},
     ArgSpec{"pitch", ArgKind::kAngle, "then about its y, down [0]"},
     ArgSpec{"roll", ArgKind::kAngle, "then about its x [0]"},
+    ArgSpec{"beam", ArgKind::kPlaces, "corners of a sonar's beam: forward,left;... [a cone]"},
     ArgSpec{
         "keys", ArgKind::kKeys,
         "other keys of its kind, to the end of the line; `hallway sensors KIND` lists them. An empty value "
@@ -151,6 +152,12 @@ Pairs sensor_keys(const Arguments& arguments) {
   for (const char* length : {"min_range", "max_range", "noise"}) {
     if (arguments.has(length))
       keys.emplace_back(std::string(length) + "_m", format_double(arguments.number(length)));
+  }
+  if (arguments.has("beam")) {
+    std::string corners;
+    for (const Vec3& corner : arguments.places("beam"))
+      corners += (corners.empty() ? "" : " ") + format_double(corner.x()) + " " + format_double(corner.y());
+    keys.emplace_back("beam_m", corners);
   }
   if (arguments.has("at")) keys.emplace_back("position_m", vector_text(arguments.place("at")));
   if (!arguments.has("keys")) return keys;

@@ -211,6 +211,23 @@ Numbers3 TableReader::numbers_or_one(std::string_view key, const Range& range, c
   return value;
 }
 
+std::vector<double> TableReader::list(std::string_view key, const Range& range, std::size_t most) {
+  const TomlNode* node = require(key, false);
+  const auto* items = std::get_if<TomlArray>(&node->value);
+  if (items == nullptr) throw error(key, std::string("must be a list of numbers, not ") + kind_name(*node));
+  if (items->size() > most)
+    throw error(key,
+                "has " + std::to_string(items->size()) + " numbers; it may have " + std::to_string(most));
+  std::vector<double> values;
+  std::string text;
+  for (const TomlNode& item : *items) {
+    values.push_back(number_of(key, item, range));
+    text += (text.empty() ? "[" : ", ") + format_double(values.back());
+  }
+  note(key, text.empty() ? "[]" : text + "]");
+  return values;
+}
+
 std::string TableReader::any_text(std::string_view key) {
   const TomlNode* node = require(key, false);
   std::string value;

@@ -57,6 +57,8 @@ class TableReader {
                    const std::optional<Numbers3>& fallback = std::nullopt);
   /// A list of three numbers, or one number for all three.
   Numbers3 numbers_or_one(std::string_view key, const Range& range, const Numbers3& fallback);
+  /// A list of at most `most` numbers.
+  std::vector<double> list(std::string_view key, const Range& range, std::size_t most);
   /// A number, a text or a truth value, as text.
   std::string any_text(std::string_view key);
 

@@ -2,6 +2,7 @@
 #include "map/check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -15,10 +16,12 @@
 #include "map/entities.hpp"
 #include "map/entity_keys.hpp"
 #include "map/entity_schema.hpp"
+#include "map/material_check.hpp"
 #include "map/path.hpp"
 #include "map/robot_file.hpp"
 #include "map/sensors.hpp"
 #include "map/start_check.hpp"
+#include "map/tie_check.hpp"
 #include "map/world.hpp"
 
 namespace hallway::map {
@@ -70,6 +73,7 @@ class Checker {
     check_paths(paths);
     check_start_of_paths();
     check_world();
+    check_materials();
     sort();
     return std::move(findings_);
   }
@@ -155,6 +159,19 @@ class Checker {
           "brushes-ignored");
   }
 
+  void check_materials() {
+    try {
+      for (const UndescribedFace& face : undescribed_faces(document_))
+        add(Severity::kWarning,
+            Error(ErrorCode::kBadInput,
+                  "the table of materials says nothing of " + quote(face.material) + "; it has the defaults",
+                  {document_.file, face.line, {}}),
+            "unknown-material");
+    } catch (const Error& error) {
+      add(Severity::kError, error, "bad-materials");
+    }
+  }
+
   void check_worldspawns() {
     const Entity* first = document_.worldspawn();
     if (!first) {
@@ -200,9 +217,28 @@ class Checker {
     check_names("hw_bump_zone");
     check_sensors();
     try {
-      read_robot(document_);
+      check_mounts(read_robot(document_));
     } catch (const Error& error) {
       if (faulty_.empty()) add(Severity::kError, error, "bad-robot");
+    }
+  }
+
+  /// Of sensors that stand beside the body, by more than what may be their own case.
+  void check_mounts(const RobotFile& robot) {
+    constexpr double kCase_m = 0.05;
+    for (const Entity* sensor : sensors(document_)) {
+      const EntityKeys keys(document_, *sensor);
+      const EntitySpec& spec = *find_entity_spec("hw_sensor");
+      if (spec.key("position_m", variant_of(spec, *sensor)) == nullptr) continue;
+      if (!keys.has("origin") && !keys.has("position_m")) continue;
+      const Vec3 mount_m = keys.has("position_m") ? keys.vector("position_m") : keys.origin_m();
+      const double beside_m = distance_beside(robot.body, mount_m);
+      if (beside_m <= kCase_m) continue;
+      add(Severity::kWarning,
+          keys.error(
+              "stands " + format_double(std::round(1e3 * beside_m) * 1e-3) + " m beside the robot's body",
+              keys.has("position_m") ? "position_m" : "origin"),
+          "sensor-beside-body");
     }
   }
 
@@ -325,51 +361,16 @@ class Checker {
     if (world) check_ties(*world);
   }
 
-  /// Brushes that add and that take away at one place with one `order`: which of them counts is decided by where they stand
-  /// in the file, and editors change that.
   void check_ties(const World& world) {
-    std::map<std::int64_t, std::vector<const Solid*>> by_order;
-    for (const Solid& solid : world.solids) {
-      const Entity& entity = document_.entities[static_cast<std::size_t>(solid.entity)];
-      if (entity.classname() != "hw_add" && entity.classname() != "hw_subtract") continue;
-      if (solid.role == BrushRole::kHint) continue;
-      const EntityKeys keys(document_, entity);
-      by_order[keys.has("order") ? keys.integer("order") : 0].push_back(&solid);
+    for (const Tie& tie : tied_brushes(document_, world)) {
+      add(Severity::kWarning,
+          Error(ErrorCode::kBadInput,
+                "the brush and that of the other kind at line " + std::to_string(tie.first->line) +
+                    " overlap and have the same `order` " + std::to_string(tie.order) +
+                    ": the one that stands later in the file counts, and editors may move it",
+                {document_.file, tie.second->line, brush_name(tie.second->entity, tie.second->brush)}),
+          "tied-order");
     }
-    for (auto& [order, solids] : by_order) {
-      if (const auto tie = find_tie(solids)) add_tie(order, *tie);
-    }
-  }
-
-  using Tie = std::pair<const Solid*, const Solid*>;
-
-  /// By boxes, swept along x; gives up after so many pairs that the rest would take seconds.
-  static std::optional<Tie> find_tie(std::vector<const Solid*>& solids) {
-    constexpr std::size_t kMostPairs = 100'000'000;
-    std::stable_sort(solids.begin(), solids.end(),
-                     [](const Solid* a, const Solid* b) { return a->box.min().x() < b->box.min().x(); });
-    std::size_t pairs = 0;
-    for (std::size_t i = 0; i < solids.size(); ++i) {
-      for (std::size_t j = i + 1; j < solids.size() && ++pairs < kMostPairs; ++j) {
-        const Solid& a = *solids[i];
-        const Solid& b = *solids[j];
-        if (b.box.min().x() >= a.box.max().x()) break;
-        if (a.role == b.role) continue;
-        const Box common = a.box.intersection(b.box);
-        if ((common.sizes().array() > 0.0).all()) return a.entity < b.entity ? Tie{&a, &b} : Tie{&b, &a};
-      }
-    }
-    return std::nullopt;
-  }
-
-  void add_tie(std::int64_t order, const Tie& tie) {
-    add(Severity::kWarning,
-        Error(ErrorCode::kBadInput,
-              "the brush and that of the other kind at line " + std::to_string(tie.first->line) +
-                  " overlap and have the same `order` " + std::to_string(order) +
-                  ": the one that stands later in the file counts, and editors may move it",
-              {document_.file, tie.second->line, brush_name(tie.second->entity, tie.second->brush)}),
-        "tied-order");
   }
 
   void sort() {
@@ -389,11 +390,12 @@ class Checker {
 
 const std::vector<std::string>& finding_ids() {
   static const std::vector<std::string> ids{
-      "bad-brush",      "bad-path",     "bad-robot",          "bad-value",       "brushes-ignored",
-      "doubled-key",    "doubled-name", "doubled-targetname", "duplicate-plane", "many-paths",
-      "missing-key",    "no-brushes",   "no-class",           "no-worldspawn",   "not-in-maps",
-      "start-off-path", "tied-order",   "two-robot-starts",   "two-worldspawns", "unknown-class",
-      "unknown-key",    "unknown-path", "unread-shape"};
+      "bad-brush",       "bad-materials",      "bad-path",       "bad-robot",          "bad-value",
+      "brushes-ignored", "doubled-key",        "doubled-name",   "doubled-targetname", "duplicate-plane",
+      "many-paths",      "missing-key",        "no-brushes",     "no-class",           "no-worldspawn",
+      "not-in-maps",     "sensor-beside-body", "start-off-path", "tied-order",         "two-robot-starts",
+      "two-worldspawns", "unknown-class",      "unknown-key",    "unknown-material",   "unknown-path",
+      "unread-shape"};
   return ids;
 }
 

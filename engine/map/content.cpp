@@ -79,6 +79,7 @@ constexpr std::array kClassRules{
     without_part("func_", LeftOut::kMoving, true),
     without_part("rotate_", LeftOut::kMoving, true),
     without_part("trigger_", LeftOut::kTrigger, true),
+    without_part("hw_gnss_zone", LeftOut::kTrigger),
 };
 
 char lower(char c) {

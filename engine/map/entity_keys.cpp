@@ -196,7 +196,8 @@ void EntityKeys::check_scale(std::string_view key) const {
 void EntityKeys::check_numbers(const KeySpec& key) const {
   const KeyValue& pair = require(key.name);
   const std::vector<double> numbers = numbers_from(pair);
-  if (numbers.size() != 3 && (numbers.size() != 1 || key.kind == KeyKind::kVector)) {
+  if (key.kind != KeyKind::kList && numbers.size() != 3 &&
+      (numbers.size() != 1 || key.kind == KeyKind::kVector)) {
     throw error("key " + quote(key.name) + ": " + quote(pair.value) +
                     (key.kind == KeyKind::kVector ? " is not three numbers" : " is not one number or three"),
                 key.name);
@@ -243,6 +244,7 @@ void EntityKeys::check_value(const KeySpec& key) const {
       break;
     case KeyKind::kVector:
     case KeyKind::kNumbers:
+    case KeyKind::kList:
       check_numbers(key);
       break;
     case KeyKind::kScale:

@@ -38,6 +38,11 @@ constexpr std::array kWorld{number("_hallway", 1.0, 1.0, ""),
                             KeySpec{.name = "_hallway_robot", .kind = KeyKind::kFlag, .fallback = "0"},
                             number("_scale", 1e-6, 1e3, "0.03125"),
                             number("_points_per_m2", 0.0, kMostPoints, "0"),
+                            number("_north_deg", -kFullTurn_deg, kFullTurn_deg, "90"),
+                            number("_declination_deg", -180.0, 180.0, "0"),
+                            number("_latitude_deg", -90.0, 90.0, ""),
+                            number("_longitude_deg", -180.0, 180.0, ""),
+                            number("_altitude_m", -1e4, 1e6, ""),
                             KeySpec{.name = "_materials", .kind = KeyKind::kText},
                             KeySpec{.name = "_point_seed", .kind = KeyKind::kSeed, .fallback = "0"}};
 constexpr std::array kGroup{kOwnPoints};
@@ -119,6 +124,9 @@ constexpr std::array kDrive{
     number("clearance_m", 0.002, 10.0, "0.03"),
     KeySpec{.name = "ledges", .kind = KeyKind::kChoice, .fallback = "contact", .choices = "contact fall"},
     KeySpec{.name = "contact", .kind = KeyKind::kChoice, .fallback = "slide", .choices = "slide stop"}};
+constexpr std::array kMagnet{kOrigin, key_specs::number_above("reach_m", 0.0, kFarthest_m, "1"),
+                             number("strength", -1e3, 1e3, "0.5")};
+constexpr std::array kGnssZone{number("factor", 0.0, 1e6, "0")};
 constexpr std::array kMesh{kOrigin,
                            required("model", KeyKind::kText),
                            kAngle,
@@ -153,6 +161,8 @@ constexpr std::array kSchema{
         .classname = "hw_bump_zone", .shape = EntityShape::kBrushes, .brushless = true, .keys = kBumpZone},
     point("hw_drive", kDrive),
     point("hw_mesh", kMesh),
+    point("hw_magnet", kMagnet),
+    brushes("hw_gnss_zone", kGnssZone),
     point("light", kLight, true),
 };
 

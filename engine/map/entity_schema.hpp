@@ -22,6 +22,7 @@ enum class KeyKind {
   kPoint,    ///< three numbers, map units
   kVector,   ///< three numbers
   kNumbers,  ///< one number or three
+  kList,     ///< numbers, as many as one likes
   kScale,    ///< one number or three, of 1e-6 to 1e6 or their negatives
 };
 
@@ -31,7 +32,7 @@ struct KeySpec {
   KeyKind kind = KeyKind::kText;
   bool required = false;
   double low =
-      0.0;  ///< of a kNumber or kWhole, and of each number of a kNumbers or kVector; of others than kNumber any where both are 0
+      0.0;  ///< of a kNumber or kWhole, and of each number of a kNumbers, kVector or kList; of others than kNumber any where both are 0
   double high = 0.0;
   bool above_low = false;       ///< `low` itself is refused
   std::string_view fallback{};  ///< what counts where the key is absent; empty where that is nothing

@@ -22,7 +22,7 @@ constexpr KeySpec required_number(std::string_view name, double low, double high
   return {.name = name, .kind = KeyKind::kNumber, .required = true, .low = low, .high = high};
 }
 
-/// One number or three (kNumbers), or three (kVector).
+/// One number or three (kNumbers), three (kVector), or any number of them (kList).
 constexpr KeySpec numbers(std::string_view name, KeyKind kind, double low, double high,
                           std::string_view fallback) {
   return {.name = name, .kind = kind, .low = low, .high = high, .fallback = fallback};

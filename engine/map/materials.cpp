@@ -175,6 +175,13 @@ MaterialProperties MaterialTable::of(std::string_view material) const {
   return properties;
 }
 
+bool MaterialTable::describes(std::string_view material) const {
+  const std::string name = compared(material);
+  return std::ranges::any_of(entries_, [&](const Entry& entry) {
+    return is_pattern(entry.name) ? fits_pattern(name, entry.name) : name == entry.name;
+  });
+}
+
 MaterialTable load_materials(const std::filesystem::path& file, std::vector<Setting>& settings) {
   const std::string name = file.string();
   const TomlTable root = parse_toml(read_file(file, kMaxMaterialsBytes), name);

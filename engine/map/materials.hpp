@@ -21,6 +21,11 @@ struct MaterialProperties {
   double reflectance =
       0.5;  ///< share of a lidar's light that is scattered back from a beam along the normal, [0, 1]
   double lidar_dropout = 0.0;  ///< share of a lidar's beams that get no answer, [0, 1]
+  double infrared =
+      0.5;  ///< share of infrared light that is scattered back from a beam along the normal, [0, 1]
+  double transparency = 0.0;  ///< share of beams of light that go through each face, [0, 1]
+  double echo_deg =
+      60.0;  ///< up to this angle of incidence a sonar's echo comes back; beyond, the surface is a mirror, [0, 90]
 
   bool operator==(const MaterialProperties&) const = default;
 };
@@ -40,6 +45,12 @@ inline constexpr std::array kMaterialProperties{
                      "share of a lidar's light that comes back from a beam along the normal"},
     MaterialProperty{"lidar_dropout", &MaterialProperties::lidar_dropout, 0.0, 1.0,
                      "share of a lidar's beams that get no answer"},
+    MaterialProperty{"infrared", &MaterialProperties::infrared, 0.0, 1.0,
+                     "share of infrared light that comes back from a beam along the normal"},
+    MaterialProperty{"transparency", &MaterialProperties::transparency, 0.0, 1.0,
+                     "share of beams of light that go through each face"},
+    MaterialProperty{"echo_deg", &MaterialProperties::echo_deg, 0.0, 90.0,
+                     "up to this angle of incidence a sonar's echo comes back"},
 };
 
 /// Tables of materials hold at most so many.
@@ -64,6 +75,8 @@ class MaterialTable {
   void add_below(const MaterialTable& other);
 
   MaterialProperties of(std::string_view material) const;
+  /// Whether an entry is for the material.
+  bool describes(std::string_view material) const;
   bool empty() const { return entries_.empty(); }
 
  private:

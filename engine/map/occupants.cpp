@@ -11,7 +11,7 @@
 namespace hallway::map {
 namespace {
 
-constexpr std::array<std::string_view, 6> kPlaceless{"worldspawn", "info_null", "info_notnull",
+constexpr std::array<std::string_view, 7> kPlaceless{"worldspawn", "info_null", "info_notnull", "hw_magnet",
                                                      "hw_mesh",    "hw_sensor", "misc_model"};
 
 bool has_place(const Entity& entity) {

@@ -9,6 +9,8 @@
 #include <variant>
 
 #include "base/text.hpp"
+#include "geometry/convex2.hpp"
+#include "map/brush_solid.hpp"
 #include "map/convex_body.hpp"
 #include "map/entity_keys.hpp"
 #include "map/sensors.hpp"
@@ -25,30 +27,6 @@ constexpr std::size_t kMostZones = 64;
 
 Error brush_error(const Document& document, const Brush& brush, std::string message) {
   return Error(ErrorCode::kBadInput, std::move(message), {document.file, brush.line, {}});
-}
-
-/// The brush as a body, whatever its materials say.
-Solid solid_of(const Document& document, const Brush& brush, const char* what) {
-  Document alone;
-  alone.file = document.file;
-  Entity& world = alone.entities.emplace_back();
-  world.add("classname", "worldspawn");
-  world.add("_scale", format_double(document.metres_per_unit()));
-  Brush& copy = world.brushes.emplace_back(brush);
-  for (Face& face : copy.faces) {
-    face.material = "body";
-    face.surface_flags.reset();
-  }
-  World made = build_world(alone);
-  if (made.solids.empty()) {
-    const Problem* problem = made.problems.empty() ? nullptr : &made.problems.front();
-    Brush at = brush;
-    if (problem) at.line = problem->line;
-    throw brush_error(
-        document, at,
-        std::string(what) + " is no convex solid: " + (problem ? problem->message : "no shape"));
-  }
-  return std::move(made.solids.front());
 }
 
 /// The corners of a solid, each once.
@@ -242,6 +220,24 @@ RobotBody robot_body(const Document& document) {
       "the robot file has no body: it needs one brush, or an `hw_body` with `radius_m`, `bottom_m` and "
       "`top_m`",
       {document.file, world ? world->line : 0, {}});
+}
+
+double distance_beside(const RobotBody& body, const Vec3& point_m) {
+  const Vec2 point = point_m.head<2>();
+  if (body.is_cylinder()) return std::max(0.0, point.norm() - body.radius_m);
+  std::vector<Vec2> corners;
+  for (const Vec3& vertex : body.vertices) corners.emplace_back(vertex.head<2>());
+  const Convex outline = convex_hull(std::move(corners));
+  double beside = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &a = outline[i], along = outline[(i + 1) % outline.size()] - a;
+    if (cross(along, point - a) >= 0.0) continue;
+    const double share = std::clamp(along.dot(point - a) / along.squaredNorm(), 0.0, 1.0);
+    // Of the edges that a point is outside of, the nearest counts.
+    const double distance = (point - a - share * along).norm();
+    beside = beside == 0.0 ? distance : std::min(beside, distance);
+  }
+  return beside;
 }
 
 std::vector<BumpZone> bump_zones(const Document& document, const RobotBody& body) {

@@ -42,6 +42,9 @@ struct BumpZone {
 /// for none, more than one, and one that is no body, thinner than 1 mm or farther than 100 m from the origin.
 RobotBody robot_body(const Document& document);
 
+/// How far a point is beside the outline of the body as seen from above; 0 over it, under it and in it. Metres. O(n log n) in the corners.
+double distance_beside(const RobotBody& body, const Vec3& point_m);
+
 /// The zones `hw_bump_zone` in the order of the file. Throws Error{kBadInput} for a bad key, two of one name, more than 64, and a zone that has
 /// no part of the body's surface.
 std::vector<BumpZone> bump_zones(const Document& document, const RobotBody& body);

@@ -27,13 +27,24 @@ inline constexpr std::array kSensorKinds{
     SensorKind{"encoders", "how far the wheels turn, in ticks", "missed ticks, backlash, worn tyres"},
     SensorKind{
         "lidar", "ranges of a 2-D or 3-D laser scanner, each at its own time",
-        "light, weather, mirrors, what is seen through glass, crosstalk, quantisation of ranges, what moves"},
+        "light, weather, mirrors, beams that glass splits, crosstalk, quantisation of ranges, what moves"},
+    SensorKind{"sonar", "how far the nearest thing in a beam of sound is, of each ping of a sweep",
+               "the sound's time of flight, several reflections, temperature, loudness by distance and size, "
+               "side lobes"},
+    SensorKind{
+        "infrared", "how far a thing straight ahead is that throws back enough infrared light",
+        "the beam's width, light of the sun, detectors that see each other's light, the robot's own body"},
     SensorKind{"imu", "angular velocity and specific force, as means of its intervals",
                "temperature, vibration, flicker noise apart from the walk, the Earth's rotation, bandwidth "
                "beyond the mean"},
     SensorKind{"gyro", "angular velocity, as means of its intervals",
                "temperature, vibration, flicker noise apart from the walk, the Earth's rotation, bandwidth "
                "beyond the mean"},
+    SensorKind{
+        "gnss", "where its antenna is, by satellites",
+        "satellites and their places, walls and roofs other than by zones, the time to the first fix, speed"},
+    SensorKind{"compass", "which way it points, from magnetic north",
+               "tilt, iron that the robot carries, currents of motors"},
     SensorKind{"odometry", "pose and twist, summed up from ticks of the wheels",
                "slopes, steps, wheels off the floor, slip with a mean"},
     SensorKind{"mouse", "way over the floor, summed up from the counts of optical mice",
@@ -51,9 +62,11 @@ inline constexpr double kTurn_deg = 360.0;
 inline constexpr double kDelay_s = 3600.0;
 
 inline constexpr std::string_view kSeeing = "points planes faces";
-inline constexpr std::string_view kRanging = "points planes faces lidar";
-inline constexpr std::string_view kMounted = "points planes faces lidar imu gyro mouse";
-inline constexpr std::string_view kTurned = "points faces lidar imu gyro";
+inline constexpr std::string_view kRanging = "points planes faces lidar sonar infrared";
+inline constexpr std::string_view kBeams = "lidar sonar infrared";
+inline constexpr std::string_view kMounted =
+    "points planes faces lidar sonar infrared imu gyro mouse gnss compass";
+inline constexpr std::string_view kTurned = "points faces lidar sonar infrared imu gyro compass";
 inline constexpr std::string_view kInertial = "imu gyro";
 inline constexpr std::string_view kWheels = "encoders odometry";
 inline constexpr std::string_view kOdometers = "odometry mouse";
@@ -66,10 +79,20 @@ inline constexpr std::array kSensorKeys = [] {
   using namespace sensor_keys;
   return std::array{
       required("name", KeyKind::kName),
-      choice("kind", "points planes faces bump encoders lidar imu gyro odometry mouse", "points"),
+      choice("kind",
+             "points planes faces bump encoders lidar sonar infrared imu gyro gnss compass odometry mouse",
+             "points"),
       of_variant("lidar", choice("preset", "none lidar16 lidar64 lidar2d_270", "none"),
                  "a class of hardware, whose values count where the sensor says nothing"),
       of_variant("imu", choice("preset", "none imu_mems imu_tactical", "none"),
+                 "a class of hardware, whose values count where the sensor says nothing"),
+      of_variant("sonar", choice("preset", "none sonar_polaroid", "none"),
+                 "a class of hardware, whose values count where the sensor says nothing"),
+      of_variant("infrared", choice("preset", "none ir_sharp", "none"),
+                 "a class of hardware, whose values count where the sensor says nothing"),
+      of_variant("gnss", choice("preset", "none gnss_meter", "none"),
+                 "a class of hardware, whose values count where the sensor says nothing"),
+      of_variant("compass", choice("preset", "none compass", "none"),
                  "a class of hardware, whose values count where the sensor says nothing"),
       of_variant(kSeeing, number_above("horizontal_fov_deg", 0.0, kTurn_deg, "90"), "full angle"),
       of_variant(kSeeing, number_above("vertical_fov_deg", 0.0, kTurn_deg, "60"), "full angle"),
@@ -77,10 +100,12 @@ inline constexpr std::array kSensorKeys = [] {
       of_variant(kRanging, number("max_range_m", 0.0, kFarthest_m, "100"), "farthest distance"),
       of_variant(kSeeing, numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0"),
                  "standard deviation; of points along x, y, z, of planes of the distance"),
-      of_variant("lidar", number("noise_m", 0.0, kLargestNoise_m, "0"), "standard deviation of a range"),
+      of_variant(kBeams, number("noise_m", 0.0, kLargestNoise_m, "0"), "standard deviation of a range"),
       of_variant("points", numbers("noise_per_m", KeyKind::kNumbers, 0.0, 1.0, "0"),
                  "standard deviation of a second part of the noise, per metre of distance"),
-      of_variant("lidar", number("noise_per_m", 0.0, 1.0, "0"),
+      of_variant("infrared", number("noise_per_m2", 0.0, 100.0, "0"),
+                 "standard deviation of a second part of the noise, per square metre of distance squared"),
+      of_variant("lidar sonar", number("noise_per_m", 0.0, 1.0, "0"),
                  "standard deviation of a second part of the noise, per metre of distance"),
       of_variant("lidar", number("noise_incidence_deg", 0.0, 10.0, "0"),
                  "a third part on slanted surfaces: this angle times distance times tangent of the slant"),
@@ -161,6 +186,44 @@ inline constexpr std::array kSensorKeys = [] {
       of_variant("imu", number("force_scale_sigma", 0.0, 0.1, "0"), "of the scale factor's error, a share"),
       of_variant("imu", number_above("force_limit", 0.0, 1e9, "1e9"), "greatest reading, m/s^2"),
       of_variant("imu", number("gravity_m_s2", 0.0, 100.0, "9.80665"), "down is -z of the world"),
+      of_variant("sonar", numbers("beam_m", KeyKind::kList, -kFarthest_m, kFarthest_m, ""),
+                 "corners of the beam in its plane, x y x y ...; none: a cone"),
+      of_variant("sonar", number_above("cone_deg", 0.0, 180.0, "30"), "full angle of a beam that is a cone"),
+      of_variant("sonar", number("height_deg", 0.0, 179.0, "0"),
+                 "full angle through which a beam with corners reaches up and down"),
+      of_variant("sonar", number_above("resolution_deg", 0.0, 11.0, "1"),
+                 "between the rays of a beam"),
+      of_variant("sonar", whole("pings", 1.0, 4096.0, "1"), "of a sweep"),
+      of_variant("sonar", number("first_deg", -kTurn_deg, kTurn_deg, "0"), "azimuth of the first ping"),
+      of_variant("sonar", number("ping_step_deg", -kTurn_deg, kTurn_deg, "0"),
+                 "from ping to ping; below 0: to the right"),
+      of_variant("sonar", number("sweep_s", 0.0, kDelay_s, "0"),
+                 "from the first ping of a sweep to where the next one could begin; 0: all at once"),
+      of_variant("sonar", number("head_radius_m", 0.0, kMount_m, "0"),
+                 "how far in front of the axis a head stands"),
+      of_variant("sonar", whole("echoes", 1.0, 8.0, "1"), "of a ping, at most"),
+      of_variant("sonar", number("echo_apart_m", 0.0, 100.0, "0.1"),
+                 "echoes nearer to each other than this are one"),
+      of_variant("sonar", flag("crosstalk", "0"), "whether heads that ping at one moment hear each other"),
+      of_variant("sonar", flag("own_body", "1"), "whether the robot's own body is met by the beams"),
+      of_variant("sonar infrared", number("missed_rate", 0.0, 1.0, "0"),
+                 "share of readings that see nothing where something is"),
+      of_variant("sonar infrared", number("false_rate", 0.0, 1.0, "0"),
+                 "share of readings of something where nothing is, uniform in range"),
+      of_variant("infrared", number("least_light", 0.0, 1.0, "0.1"),
+                 "of a surface's `infrared` times the cosine of its slant: what gives less is not seen"),
+      of_variant("infrared", number("near_m", 0.0, kFarthest_m, "0"),
+                 "0: ranges; above: it only says whether something is nearer than this"),
+      of_variant("gnss", number("noise_m", 0.0, kLargestNoise_m, "0"),
+                 "standard deviation of what is new in each fix, along east and along north"),
+      of_variant("gnss", number("correlated_m", 0.0, kLargestNoise_m, "0"), "of what stays for a while"),
+      of_variant("gnss", number("noise_up_m", 0.0, kLargestNoise_m, "0"), "likewise of the height"),
+      of_variant("gnss", number("correlated_up_m", 0.0, kLargestNoise_m, "0"), "likewise of the height"),
+      of_variant("gnss", number("correlation_s", 0.0, 1e6, "60"),
+                 "after which what stays has faded to a share of 1 / e"),
+      of_variant("compass", number("noise_deg", 0.0, 180.0, "0"), "standard deviation"),
+      of_variant("compass", number("bias_sigma_deg", 0.0, 180.0, "0"),
+                 "standard deviation of an error that is the same in all readings"),
       of_variant("lidar", KeySpec{.name = "pattern", .kind = KeyKind::kText},
                  "a table of beams, in place of rings and columns"),
       of_variant("lidar", whole("rings", 1.0, 4096.0, "16"), "rows of beams"),

@@ -2,7 +2,12 @@
 #include "sim/default_scenario.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -103,20 +108,20 @@ class Writer {
     for (const map::Entity* sensor : map::sensors(document_)) {
       names.push_back(map::EntityKeys(document_, *sensor).text("name"));
       const std::string* kind = sensor->find("kind");
-      planes_alone_ &= kind != nullptr && *kind == "planes";
+      kinds_.insert(kind != nullptr ? *kind : "points");
     }
     made_.text += "\n";
     if (!names.empty()) {
       made_.text += "# The sensors are those of the map: " + joined(names) + ".\n";
     } else {
-      planes_alone_ = false;
+      kinds_.insert("points");
       assume("The map has no hw_sensor: the robot has a sensor of points that looks 12 m ahead.");
       made_.text +=
           "[sensor.eyes]\nkind = \"points\"\nhorizontal_fov_deg = 90\nvertical_fov_deg = 60\nmin_range_m = "
           "0.1\n"
           "max_range_m = 12\nnoise_m = 0.01      # standard deviation along each axis\n";
     }
-    if (planes_alone_ || has_points()) return;
+    if (!kinds_.contains("points") || has_points()) return;
     assume(
         "The map has no points for sensors of points: worldspawn's `_points_per_m2` or an hw_landmark_cloud "
         "makes some.");
@@ -128,9 +133,29 @@ class Writer {
                        [](const map::Entity& entity) { return entity.find("_points_per_m2") != nullptr; });
   }
 
+  /// Empty: none.
+  std::string plugin_for_sensors() const {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kPlugins{
+        {{"points", "slam_point"},
+         {"planes", "slam_plane"},
+         {"faces", "slam_plane"},
+         {"lidar", "icp"},
+         {"encoders", "dead_reckoning"},
+         {"odometry", "dead_reckoning"}}};
+    for (const auto& [kind, plugin] : kPlugins) {
+      if (kinds_.contains(kind)) return std::string(plugin);
+    }
+    return {};
+  }
+
   void write_plugin() {
-    const std::string plugin = planes_alone_ ? "slam_plane" : "slam_point";
+    const std::string plugin = plugin_for_sensors();
     made_.text += "\n";
+    if (plugin.empty()) {
+      assume("No plugin is for these sensors alone: the run records them. `--plugin NAME` runs one.",
+             {"plugin"});
+      return;
+    }
     assume("The plugin is `" + plugin + "`; `--plugin NAME` runs another one.", {"plugin"});
     made_.text += "[[plugin]]\nname = " + toml_text(plugin) + "\n";
   }
@@ -138,7 +163,7 @@ class Writer {
   const map::Document& document_;
   std::string map_file_;
   std::vector<std::string> paths_;
-  bool planes_alone_ = true;
+  std::set<std::string, std::less<>> kinds_;  ///< of the sensors
   DefaultScenario made_;
 };
 

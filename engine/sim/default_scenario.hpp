@@ -24,7 +24,7 @@ struct DefaultScenario {
 };
 
 /// Makes one: the robot follows the map's path once, or stays at its start where it has no path; with the map's sensors, or one of points; the
-/// plugin `slam_point`, or `slam_plane` where all sensors are of planes; and a picture. Throws Error{kBadInput} for a map with neither a
+/// plugin for them: `slam_point` where one is of points, else `slam_plane` for planes and faces, `icp` for a lidar, `dead_reckoning` for encoders and odometry, else none; and a picture. Throws Error{kBadInput} for a map with neither a
 /// path nor a start, and for one that find_path() or map::sensors() refuse.
 /// @param map_file  as the scenario is to name it
 DefaultScenario default_scenario(const map::Document& document, const std::string& map_file);

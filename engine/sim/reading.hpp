@@ -8,12 +8,16 @@
 
 #include "geometry/se3.hpp"
 #include "sense/bump_sensor.hpp"
+#include "sense/compass_sensor.hpp"
 #include "sense/encoder_sensor.hpp"
+#include "sense/gnss_sensor.hpp"
 #include "sense/imu_sensor.hpp"
+#include "sense/infrared_sensor.hpp"
 #include "sense/lidar_sensor.hpp"
 #include "sense/odometry.hpp"
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
+#include "sense/sonar_sensor.hpp"
 
 namespace hallway::sim {
 
@@ -27,6 +31,10 @@ struct Sensed {
 using BumpSensed = Sensed<sense::BumpReading, sense::BumpTruth>;
 using EncoderSensed = Sensed<sense::EncoderReading, sense::EncoderTruth>;
 using LidarSensed = Sensed<sense::LidarReading, sense::LidarTruth>;
+using SonarSensed = Sensed<sense::SonarReading, sense::SonarTruth>;
+using InfraredSensed = Sensed<sense::InfraredReading, sense::InfraredTruth>;
+using GnssSensed = Sensed<sense::GnssReading, sense::GnssTruth>;
+using CompassSensed = Sensed<sense::CompassReading, sense::CompassTruth>;
 using ImuSensed = Sensed<sense::ImuReading, sense::ImuTruth>;
 using OdometrySensed = Sensed<sense::OdometryReading, std::monostate>;  ///< its truth is the robot's pose
 
@@ -41,7 +49,7 @@ struct Reading {
   Pose T_world_body{};  ///< the truth at t_ns
   /// By the kind of the sensor: landmarks, walls or faces, …
   std::variant<std::vector<sense::PointObservation>, std::vector<PlaneObservation>, BumpSensed, EncoderSensed,
-               LidarSensed, ImuSensed, OdometrySensed>
+               LidarSensed, SonarSensed, InfraredSensed, GnssSensed, CompassSensed, ImuSensed, OdometrySensed>
       sensed{};
 
   const std::vector<sense::PointObservation>& observations() const {

@@ -36,6 +36,7 @@ template <typename Spec>
 sense::ReadingSpan span_of(const Spec& spec, std::int64_t period_ns) {
   if constexpr (std::is_same_v<Spec, sense::LidarSpec>)
     return {.duration_ns = sense::interval_ns(spec.timing, period_ns)};
+  if constexpr (std::is_same_v<Spec, sense::SonarSpec>) return {.duration_ns = spec.sweep_ns};
   if constexpr (std::is_same_v<Spec, sense::ImuSensorSpec>) return {.to_next = true};
   return {};
 }
@@ -137,9 +138,37 @@ class Rig::Builder {
         Encoders{sense::EncoderSensor(spec, n, scenario_.seed), std::move(wheels), ways_on_path(n)});
   }
   Device device(const sense::LidarSpec& spec) {
-    if (!rig_.surfaces_) rig_.surfaces_ = std::make_unique<const sense::Surfaces>(rig_.world_.surfaces());
-    return Device(std::in_place_type<sense::LidarSensor>, in_truth(spec), rig_.world_.scene, *rig_.surfaces_,
+    return Device(std::in_place_type<sense::LidarSensor>, in_truth(spec), rig_.world_.scene, surfaces(),
                   interval(spec.timing), scenario_.seed, own_body_of(scenario_.robot));
+  }
+  Device device(const sense::SonarSpec& spec) {
+    if (spec.sweep_ns > interval(spec.timing))
+      throw Error(ErrorCode::kBadInput,
+                  "a sweep of " + format_double(static_cast<double>(spec.sweep_ns) * 1e-9) +
+                      " s does not end before the next begins; rate_hz is too high, or 0, which is a sweep "
+                      "for every frame",
+                  Where{printable(scenario_.file), 0, element_of(spec.name)});
+    return Device(std::in_place_type<sense::SonarSensor>, in_truth(spec), rig_.world_.scene, surfaces(),
+                  scenario_.seed, own_body_of(scenario_.robot));
+  }
+  Device device(const sense::InfraredSpec& spec) {
+    return Device(std::in_place_type<sense::InfraredSensor>, in_truth(spec), rig_.world_.scene, surfaces(),
+                  scenario_.seed);
+  }
+  Device device(const sense::GnssSpec& spec) {
+    sense::GnssSpec true_spec = in_truth(spec);
+    true_spec.north_rad = rig_.world_.earth.north_rad;
+    for (const map::GnssZoneEntity& zone : rig_.world_.earth.zones)
+      true_spec.zones.push_back({zone.planes, zone.factor});
+    return Device(std::in_place_type<sense::GnssSensor>, std::move(true_spec), scenario_.period_ns,
+                  scenario_.seed);
+  }
+  Device device(const sense::CompassSpec& spec) {
+    sense::CompassSpec true_spec = in_truth(spec);
+    true_spec.north_rad = rig_.world_.earth.magnetic_north_rad;
+    for (const map::MagnetEntity& magnet : rig_.world_.earth.magnets)
+      true_spec.magnets.push_back({magnet.position, magnet.reach_m, magnet.strength});
+    return Device(std::in_place_type<sense::CompassSensor>, std::move(true_spec), scenario_.seed);
   }
   Device device(const sense::ImuSensorSpec& spec) {
     return Device(std::in_place_type<sense::ImuSensor>, in_truth(spec),
@@ -157,6 +186,12 @@ class Rig::Builder {
     Mice mice{sense::MouseOdometry(in_truth(spec), scenario_.seed), nullptr};
     mice.track = std::make_unique<sense::OdometryTrack<sense::MouseState>>(mice.sensor.start());
     return Device(std::move(mice));
+  }
+
+  /// Made for the first sensor that sends beams.
+  const sense::Surfaces& surfaces() {
+    if (!rig_.surfaces_) rig_.surfaces_ = std::make_unique<const sense::Surfaces>(rig_.world_.surfaces());
+    return *rig_.surfaces_;
   }
 
   /// With the mount that it has in truth.
@@ -188,6 +223,19 @@ Rig::Rig(const Scenario& scenario, SensedWorld world)
     const bool off = sensor->switches.size() % 2 == 1;
     if (off != (event.kind == EventKind::kSensorOff)) sensor->switches.push_back(event.t_ns);
   }
+}
+
+bool Rig::meets_own_body(std::size_t sensor) const {
+  const auto* sonar = std::get_if<sense::SonarSensor>(&sensors_[sensor].device);
+  return sonar != nullptr && sonar->meets_own_body();
+}
+
+const std::vector<std::int64_t>& Rig::offsets_ns(std::size_t sensor) const {
+  const Device& device = sensors_[sensor].device;
+  if (const auto* lidar = std::get_if<sense::LidarSensor>(&device)) return lidar->offsets_ns();
+  if (const auto* sonar = std::get_if<sense::SonarSensor>(&device)) return sonar->offsets_ns();
+  if (const auto* infrared = std::get_if<sense::InfraredSensor>(&device)) return infrared->offsets_ns();
+  throw Error(ErrorCode::kInternal, "a sensor without rays has no times of them");
 }
 
 bool Rig::is_off(const Mounted& mounted, std::int64_t t_ns) const {
@@ -281,6 +329,19 @@ bool Rig::read_one(const Mounted& mounted, const Motion& motion, Reading& readin
     lidar->read(sequence, reading.t_begin_ns, motion, world_.threads, scan, truth);
     reading.t_begin_ns = scan.t_begin_ns;
     reading.t_ns = scan.t_end_ns;
+  } else if (const auto* sonar = std::get_if<sense::SonarSensor>(&mounted.device)) {
+    auto& [sweep, truth] = reading.sensed.emplace<SonarSensed>();
+    sonar->read(sequence, reading.t_begin_ns, motion, world_.threads, sweep, truth);
+    reading.t_ns = sweep.t_end_ns;
+  } else if (const auto* infrared = std::get_if<sense::InfraredSensor>(&mounted.device)) {
+    auto& [seen, truth] = reading.sensed.emplace<InfraredSensed>();
+    infrared->read(sequence, reading.t_begin_ns, motion, seen, truth);
+  } else if (const auto* gnss = std::get_if<sense::GnssSensor>(&mounted.device)) {
+    auto& [fix, truth] = reading.sensed.emplace<GnssSensed>();
+    gnss->read(sequence, reading.t_ns, motion, fix, truth);
+  } else if (const auto* compass = std::get_if<sense::CompassSensor>(&mounted.device)) {
+    auto& [heading, truth] = reading.sensed.emplace<CompassSensed>();
+    compass->read(sequence, reading.t_ns, motion, heading, truth);
   } else if (const auto* imu = std::get_if<sense::ImuSensor>(&mounted.device)) {
     sense::ImuTruth truth = imu->truth(motion, k, reading.t_begin_ns, reading.t_ns);
     reading.sensed = ImuSensed{imu->read(truth, k, reading.t_ns - reading.t_begin_ns), truth};

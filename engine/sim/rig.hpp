@@ -9,10 +9,14 @@
 #include <variant>
 #include <vector>
 
+#include "map/earth.hpp"
+#include "sense/compass_sensor.hpp"
 #include "sense/encoder_sensor.hpp"
 #include "sense/face_plan.hpp"
 #include "sense/face_sensor.hpp"
+#include "sense/gnss_sensor.hpp"
 #include "sense/imu_sensor.hpp"
+#include "sense/infrared_sensor.hpp"
 #include "sense/landmark_index.hpp"
 #include "sense/lidar_sensor.hpp"
 #include "sense/mouse_odometry.hpp"
@@ -21,6 +25,7 @@
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
 #include "sense/sensor_clock.hpp"
+#include "sense/sonar_sensor.hpp"
 #include "sense/surfaces.hpp"
 #include "sense/timing.hpp"
 #include "sense/wall_plan.hpp"
@@ -40,6 +45,7 @@ struct SensedWorld {
   std::function<sense::WallPlan(double height_m)> walls;  ///< at a height above the world's origin
   std::function<sense::FacePlan()> faces;
   std::function<sense::Surfaces()> surfaces;  ///< of the scene's triangles
+  const map::Earth& earth;                    ///< north, magnets, zones of satellites
   Pose T_world_start;                         ///< where the body is at time 0
   unsigned threads;                           ///< for one reading, at least 1
 };
@@ -68,10 +74,10 @@ class Rig {
   const sense::WallPlan* walls(std::size_t sensor) const { return sensors_[sensor].walls.get(); }
   /// The faces that a sensor of faces sees; the index is the face's number. Null for a sensor of another kind.
   const sense::FacePlan* faces(std::size_t sensor) const { return sensors_[sensor].faces.get(); }
-  /// Null for a sensor of another kind.
-  const sense::LidarSensor* lidar(std::size_t sensor) const {
-    return std::get_if<sense::LidarSensor>(&sensors_[sensor].device);
-  }
+  /// Whether the robot's own body is in a beam of a sonar; false for a sensor of another kind.
+  bool meets_own_body(std::size_t sensor) const;
+  /// When each ray of a lidar or ping of a sonar is measured, after a reading's begin. Throws Error{kInternal} for a sensor of another kind.
+  const std::vector<std::int64_t>& offsets_ns(std::size_t sensor) const;
 
  private:
   /// The ways of rims on a path, which has no wheels: those that a sensor's own wheels would roll.
@@ -97,7 +103,8 @@ class Rig {
     std::unique_ptr<sense::OdometryTrack<sense::MouseState>> track;
   };
   using Device = std::variant<sense::PointSensor, sense::PlaneSensor, sense::FaceSensor, sense::BumpSensor,
-                              Encoders, sense::LidarSensor, sense::ImuSensor, WheelOdometer, Mice>;
+                              Encoders, sense::LidarSensor, sense::SonarSensor, sense::InfraredSensor,
+                              sense::GnssSensor, sense::CompassSensor, sense::ImuSensor, WheelOdometer, Mice>;
 
   struct Mounted {
     std::string name;

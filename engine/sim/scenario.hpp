@@ -18,12 +18,16 @@
 #include "map/document.hpp"
 #include "map/materials.hpp"
 #include "sense/bump_sensor.hpp"
+#include "sense/compass_sensor.hpp"
 #include "sense/encoder_sensor.hpp"
+#include "sense/gnss_sensor.hpp"
 #include "sense/imu_sensor.hpp"
+#include "sense/infrared_sensor.hpp"
 #include "sense/lidar_sensor.hpp"
 #include "sense/mouse_odometry.hpp"
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
+#include "sense/sonar_sensor.hpp"
 #include "sense/wheel_odometry.hpp"
 #include "sim/driven_spec.hpp"
 #include "sim/event.hpp"
@@ -106,7 +110,8 @@ struct EncoderSpec : sense::EncoderSensorSpec {
 /// What a sensor is, of one kind or another. Mounts are as plugins are told.
 using SensorSpec =
     std::variant<sense::PointSensorSpec, sense::PlaneSensorSpec, sense::BumpSensorSpec, EncoderSpec,
-                 sense::LidarSpec, sense::ImuSensorSpec, sense::WheelOdometrySpec, sense::MouseOdometrySpec>;
+                 sense::LidarSpec, sense::SonarSpec, sense::InfraredSpec, sense::GnssSpec, sense::CompassSpec,
+                 sense::ImuSensorSpec, sense::WheelOdometrySpec, sense::MouseOdometrySpec>;
 
 /// Keys of an `hw_landmark_cloud` of the map that a scenario sets in its place.
 struct CloudSpec {

@@ -3,6 +3,8 @@
 
 #include <limits>
 #include <map>
+#include <numbers>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -29,6 +31,15 @@ class Numbering {
   std::map<SurfaceLabel, std::uint32_t> numbers_;
 };
 
+sense::SurfaceMaterial surface_material(const std::string& name, const map::MaterialProperties& properties) {
+  return {.name = name,
+          .reflectivity = properties.reflectance,
+          .dropout = properties.lidar_dropout,
+          .infrared = properties.infrared,
+          .transparency = properties.transparency,
+          .echo_angle_rad = properties.echo_deg * std::numbers::pi / 180.0};
+}
+
 }  // namespace
 
 SceneLabels label_scene(const world::CompiledWorld& world, const PlacedModels& models) {
@@ -48,6 +59,21 @@ SceneLabels label_scene(const world::CompiledWorld& world, const PlacedModels& m
   return scene;
 }
 
+sense::Surfaces undescribed_surfaces(const trace::TriangleMesh& mesh) {
+  return {mesh, {surface_material("", {})}};
+}
+
+std::vector<std::string> undescribed_materials(const PlacedModels& models, const map::MaterialTable& table) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < models.meshes.size(); ++i) {
+    for (const mesh::Triangle& triangle : models.meshes[i].triangles) {
+      const std::string& material = models.materials[i][triangle.material];
+      if (!table.describes(material)) names.insert(material);
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
 sense::Surfaces surfaces_of(const trace::TriangleMesh& mesh, const SceneLabels& labels,
                             const map::MaterialTable& table) {
   constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
@@ -58,10 +84,7 @@ sense::Surfaces surfaces_of(const trace::TriangleMesh& mesh, const SceneLabels& 
     const auto [at, is_new] = numbers.emplace(label.material, static_cast<std::uint16_t>(materials.size()));
     of_label.push_back(at->second);
     if (!is_new) continue;
-    const map::MaterialProperties properties = table.of(label.material);
-    materials.push_back({.name = label.material,
-                         .reflectivity = properties.reflectance,
-                         .dropout = properties.lidar_dropout});
+    materials.push_back(surface_material(label.material, table.of(label.material)));
     if (materials.size() > kMost) throw Error(ErrorCode::kBadInput, "map and models have too many materials");
   }
   std::vector<std::uint16_t> of_triangle;

@@ -30,6 +30,12 @@ struct SceneLabels {
 /// O(triangles), and the triangulation of the surface.
 SceneLabels label_scene(const world::CompiledWorld& world, const PlacedModels& models);
 
+/// All triangles with the properties that materials have where nothing describes them.
+sense::Surfaces undescribed_surfaces(const trace::TriangleMesh& mesh);
+
+/// The materials of models, each once and sorted, that a table does not describe.
+std::vector<std::string> undescribed_materials(const PlacedModels& models, const map::MaterialTable& table);
+
 /// The triangles with the properties of their materials.
 /// @param mesh  what sense::make_occluders() makes of the same world and models
 /// Throws Error{kBadInput} for more than 65 535 materials.

@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "map/document.hpp"
@@ -48,16 +47,6 @@ MountedSpec read_sensor(const std::string& name, const SensorTable& where,
 
 /// Appends it to a scenario's sensors.
 void add_sensor(Scenario& scenario, const std::string& name, MountedSpec sensor);
-
-/// Values of keys for a class of hardware, as a map has them.
-struct SensorPreset {
-  std::string_view kind;  ///< of the sensor
-  std::string_view name;
-  std::span<const std::pair<std::string_view, std::string_view>> values;
-};
-
-/// In a fixed order.
-std::span<const SensorPreset> sensor_presets();
 
 /// Gives a scenario that has no sensors those of its map (entities `hw_sensor`, in the order of the file), and notes their settings.
 /// Throws Error{kBadInput} with the map's file and line for one that is wrong.

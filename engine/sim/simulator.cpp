@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "bsp/point_location.hpp"
 #include "drive/wheels.hpp"
 #include "map/content.hpp"
 #include "map/entities.hpp"
@@ -179,6 +180,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   take_drive(scenario_);
   scenario_.materials.add_below(
       map::materials_of(document_, scenario.map_file.parent_path(), scenario_.settings));
+  earth_ = map::earth_of(document_);
   rig_ = std::make_unique<const Rig>(scenario_, sensed_world());
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
@@ -195,6 +197,8 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
     rig_->check_ways(*path_motion(), scenario_.period_ns * (std::int64_t{scenario_.steps} - 1));
   }
   report_silent_sensors();
+  report_misplaced_sensors();
+  report_undescribed_materials();
 }
 
 /// What sensors take from the world.
@@ -206,13 +210,14 @@ SensedWorld Simulator::sensed_world() const {
           .walls = [this](double height_m) { return walls_at(height_m); },
           .faces = [this, wanted] { return sense::make_face_plan(world_.partition.surface, wanted); },
           .surfaces = [this] { return surfaces(); },
+          .earth = earth_,
           .T_world_start = start(),
           .threads = threads_};
 }
 
 sense::Surfaces Simulator::surfaces() const {
   const trace::TriangleMesh mesh = sense::make_occluders(world_.partition.surface, triangles_of(models_));
-  if (scenario_.materials.empty()) return sense::Surfaces(mesh);
+  if (scenario_.materials.empty()) return undescribed_surfaces(mesh);
   return surfaces_of(mesh, label_scene(world_, models_), scenario_.materials);
 }
 
@@ -231,6 +236,51 @@ void Simulator::report_silent_sensors() {
     problems_.emplace_back(ErrorCode::kBadInput, "no reading arrives by the last frame",
                            Where{printable(scenario_.file), 0, "sensor `" + printable(name) + "`"});
   }
+}
+
+/// Of a sensor that begins within a wall, and of a sonar that hears the robot's own body.
+void Simulator::report_misplaced_sensors() {
+  const auto report = [this](const std::string& name, std::string problem) {
+    problems_.emplace_back(ErrorCode::kBadInput, std::move(problem),
+                           Where{printable(scenario_.file), 0, "sensor `" + printable(name) + "`"});
+  };
+  for (std::size_t i = 0; i < rig_->size(); ++i) {
+    std::visit(
+        [&](const auto& spec) {
+          if constexpr (requires { spec.T_body_sensor.t; }) {
+            const Vec3 place = start() * spec.T_body_sensor.t;
+            if (bsp::cluster_at(world_.partition.tree, place) < 0)
+              report(spec.name,
+                     "is within a wall or outside of the map at the start, at " + place_text(place));
+          }
+          if (rig_->meets_own_body(i))
+            report(spec.name,
+                   "the robot's own body is in its beam, and its echo is the nearest; `own_body = false` "
+                   "leaves it out");
+        },
+        scenario_.sensors[i]);
+  }
+}
+
+/// Of models, where sensors use a table of materials. The map's own are `hallway map check`'s.
+void Simulator::report_undescribed_materials() {
+  const bool used = std::ranges::any_of(scenario_.sensors, [](const SensorSpec& sensor) {
+    return std::holds_alternative<sense::LidarSpec>(sensor) ||
+           std::holds_alternative<sense::SonarSpec>(sensor) ||
+           std::holds_alternative<sense::InfraredSpec>(sensor);
+  });
+  if (!used || scenario_.materials.empty()) return;
+  constexpr std::size_t kNamed = 5;
+  const std::vector<std::string> names = undescribed_materials(models_, scenario_.materials);
+  if (names.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i)
+    list += (i > 0 ? ", " : "") + ("`" + printable(names[i], 80) + "`");
+  if (names.size() > kNamed) list += " and " + std::to_string(names.size() - kNamed) + " more";
+  problems_.emplace_back(
+      ErrorCode::kBadInput,
+      "the table of materials says nothing of " + list + " of models; they have the defaults",
+      Where{file_of(document_), 0, {}});
 }
 
 void Simulator::stop_at_obstacle() {

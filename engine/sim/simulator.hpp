@@ -94,9 +94,11 @@ class Simulator {
   const sense::WallPlan* walls(std::size_t sensor) const { return rig_->walls(sensor); }
   /// The faces that a sensor of faces sees; the index is the face's number. Null for a sensor of another kind.
   const sense::FacePlan* faces(std::size_t sensor) const { return rig_->faces(sensor); }
-  /// A sensor of the kind lidar.
+  /// What sensors of position and heading take from the map.
+  const map::Earth& earth() const { return earth_; }
+  /// When each ray or ping of a sensor of ranges is measured, after a reading's begin.
   /// @param sensor  index in Scenario::sensors
-  const sense::LidarSensor& lidar(std::size_t sensor) const { return *rig_->lidar(sensor); }
+  const std::vector<std::int64_t>& offsets_ns(std::size_t sensor) const { return rig_->offsets_ns(sensor); }
   /// The walls at a height, metres, as a sensor of planes there sees them. O(n log n) in the surface.
   sense::WallPlan walls_at(double height_m) const;
   /// Metres of path from frame to frame; of a smooth pace, at its full speed.
@@ -105,6 +107,8 @@ class Simulator {
  private:
   void stop_at_obstacle();
   void report_silent_sensors();
+  void report_misplaced_sensors();
+  void report_undescribed_materials();
   Pose pose_after(double distance_m) const;
   SmoothPace smooth_pace() const;
   SensedWorld sensed_world() const;
@@ -123,6 +127,7 @@ class Simulator {
   trace::Scene scene_;
   Landmarks landmarks_;
   sense::LandmarkIndex landmark_index_;
+  map::Earth earth_{};
   std::unique_ptr<const Rig> rig_;
   std::vector<Error> problems_;
 };

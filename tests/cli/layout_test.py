@@ -32,7 +32,7 @@ MEANS_A_KIND = {
     "engine/host/samples/plane_kind.cpp": "the row of planes", "engine/host/samples/bump_kind.cpp": "the row of contact zones",
     "engine/host/samples/encoder_kind.cpp": "the row of wheel encoders", "engine/host/output/output_kind.cpp": "which sample an output becomes",
     "engine/host/samples/range_scan_kind.cpp": "the row of rays", "engine/host/samples/odometry_kind.cpp": "the row of odometry",
-    "engine/host/samples/imu_kind.cpp": "the row of IMUs",
+    "engine/host/samples/gnss_kind.cpp": "the row of positions", "engine/host/samples/imu_kind.cpp": "the row of IMUs", "engine/host/samples/magnetic_kind.cpp": "the row of headings",
     "engine/host/robot_parts.cpp": "checks the intrinsics of kinds", "engine/link/description_parts.cpp": "the intrinsics of kinds on the wire",
     "engine/run/scoring/iteration_maker.cpp": "whose associations are scored", "engine/run/scoring/truth_of.hpp": "the noise of landmarks and planes", "engine/run/scoring/plane_truth.cpp": "planes in points",
     "engine/run/sources/log_source.cpp": "reads tables of points and of planes", "engine/foxglove/view.cpp": "has a schema for each kind that it shows",

@@ -120,8 +120,11 @@ constexpr const char* kSteered = "steered";
 /// icp with the lidar, IMU and odometry of a rig, where else it has points. Scans end between frames, and its poses are of then.
 constexpr const char* kScans = "scans";
 
+/// dead_reckoning on a robot with sonar, infrared detectors, a compass, a mouse and a receiver of satellites.
+constexpr const char* kSenses = "senses";
+
 bool takes_a_rig(const std::string& each) {
-  return each == kScans || each == "dead_reckoning";
+  return each == kScans || each == kSenses || each == "dead_reckoning";
 }
 
 bool obeys(const std::string& each) {
@@ -131,6 +134,7 @@ bool obeys(const std::string& each) {
 /// Where a plugin sees what it needs.
 fs::path scenario_of(const std::string& each) {
   if (each == kTwoCameras) return source_folder() / "maps/two_cameras.toml";
+  if (each == kSenses) return source_folder() / "maps/senses.toml";
   if (takes_a_rig(each)) return source_folder() / "maps/office_rig.toml";
   if (obeys(each)) return source_folder() / "maps/office_drive.toml";
   return source_folder() / (each == "slam_plane" ? "maps/many_planes.toml" : "maps/office.toml");
@@ -151,6 +155,7 @@ class Hosts : public testing::TestWithParam<std::string> {
   static std::string plugin() {
     if (GetParam() == kTwoCameras) return "slam_point";
     if (GetParam() == kScans) return "icp";
+    if (GetParam() == kSenses) return "dead_reckoning";
     return GetParam() == kSideways || GetParam() == kSteered ? FIXTURES "/drives.so" : GetParam();
   }
   static std::string plugin_with_parameters() {
@@ -163,7 +168,7 @@ class Hosts : public testing::TestWithParam<std::string> {
     return {};
   }
   static std::string steps() {
-    if (takes_a_rig(GetParam())) return std::to_string(sized(40, 1010));
+    if (takes_a_rig(GetParam())) return std::to_string(sized(40, GetParam() == kSenses ? 480 : 1010));
     return std::to_string(sized(150, GetParam() == kTwoCameras ? 1010 : 2020));
   }
 
@@ -316,7 +321,7 @@ TEST_P(Hosts, FourThreads) {
 
 /// Every plugin that belongs to the program, one that drives robots of three kinds, and a rig. Each plugin that is added joins.
 std::vector<std::string> pipelines() {
-  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras, kScans, kSideways, kSteered};
+  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras, kScans, kSenses, kSideways, kSteered};
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(PLUGINS, problem)) {
     if (entry.path().extension() == ".so") all.push_back(entry.path().stem());

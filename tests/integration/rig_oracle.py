@@ -126,6 +126,17 @@ def first_hits(triangles, origins, directions):
     return ranges
 
 
+def cone(width_deg, resolution_deg):
+    """The rays of a sonar's beam about x, as docs/sensors.md and sense/echo_beam.hpp say."""
+    half, resolution = math.radians(width_deg) / 2, math.radians(resolution_deg)
+    rays, rings = [[1.0, 0.0, 0.0]], math.ceil(half / resolution)
+    for k in range(1, rings + 1):
+        off = half * k / rings
+        n = math.ceil(2 * math.pi * math.sin(off) / resolution)
+        rays += [[math.cos(off), math.sin(off) * math.cos(2 * math.pi * i / n), math.sin(off) * math.sin(2 * math.pi * i / n)] for i in range(n)]
+    return np.array(rays)
+
+
 def grazes(triangles, origin, direction, up_to):
     """Whether a ray passes an edge of a triangle within GRAZING_RAD, up to a distance."""
     for k in range(3):
@@ -186,6 +197,20 @@ class Rig:
         distance = self.pace.way(t_ns * 1e-9) % self.path.length
         return self.path.frame(distance, self.path.piece(distance))
 
+    def pings(self, sensor, sample, triangles):
+        """Ranges of a sweep without noise: of each ping the nearest hit of its beam's rays, from where the robot was then."""
+        arm, turn = mount_of(sensor)
+        beam = cone(sensor.get("cone_deg", 30), sensor.get("resolution_deg", 1))
+        n, sweep_ns = sensor.get("pings", 1), sensor.get("sweep_s", 0) * 1e9
+        ranges = []
+        for i in range(n):
+            p, r = self.at(sample["t_begin_ns"] + round(sweep_ns * i / n))
+            head = r @ turn @ rotation(sensor.get("first_deg", 0) + i * sensor.get("ping_step_deg", 0), 0, 0)
+            origin = p + r @ arm + head[:, 0] * sensor.get("head_radius_m", 0)
+            nearest = first_hits(triangles, np.repeat(origin[None], len(beam), 0), beam @ head.T).min()
+            ranges.append(nearest if nearest <= sensor.get("max_range_m", 100) else math.inf)
+        return ranges
+
     def imu(self, sensor, begin_ns, end_ns):
         """Means of angular velocity and specific force, by parts: of first derivatives alone, which complex steps give."""
         arm, turn = mount_of(sensor)
@@ -226,11 +251,11 @@ def main(folder, frames, wanted_rays):
     rig = Rig(folder)
     triangles = world_of(folder)[1]
     sensors = list(rig.scenario["sensor"].items())
-    said = {"rays": 0, "worst_range_m": 0.0, "different": 0, "unexplained": 0, "free": 0, "imu_samples": 0, "worst_angular": 0.0, "most_angular": 0.0, "worst_force": 0.0, "most_skew_m": 0.0}
+    said = {"rays": 0, "worst_range_m": 0.0, "different": 0, "unexplained": 0, "free": 0, "imu_samples": 0, "worst_angular": 0.0, "most_angular": 0.0, "worst_force": 0.0, "most_skew_m": 0.0, "pings": 0, "worst_ping_m": 0.0}
     with open(frames, encoding="utf-8") as file:
         documents = [json.loads(line) for line in file]
     samples = [s for d in documents for s in d["frame"]["samples"]]
-    scans = [s for s in samples if s["kind"] == "range_scan"]
+    scans = [s for s in samples if s["kind"] == "range_scan" and sensors[s["sensor"]][1]["kind"] == "lidar"]
     total = sum(len(s["payload"]["rays"]) for s in scans)
     every = max(1, total // wanted_rays)
     count = 0
@@ -244,6 +269,11 @@ def main(folder, frames, wanted_rays):
             said["worst_angular"] = max(said["worst_angular"], float(np.abs(angular - payload["angular_rad_s"]).max()))
             said["worst_force"] = max(said["worst_force"], float(np.abs(force - payload["force_m_s2"]).max()))
         if sample["kind"] != "range_scan":
+            continue
+        if sensor["kind"] == "sonar":
+            for mine, ray in zip(rig.pings(sensor, sample, triangles), payload["rays"]):
+                said["pings"] += 1
+                said["worst_ping_m"] = max(said["worst_ping_m"], 0.0 if mine == float(ray["range_m"]) else abs(mine - float(ray["range_m"])))
             continue
         arm, turn = mount_of(sensor)
         begin_p, begin_r = rig.at(sample["t_begin_ns"])

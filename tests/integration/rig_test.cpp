@@ -102,6 +102,21 @@ TEST_F(Rig, ReadingsOnASmoothPathAreThoseOfAnIndependentComputation) {
   EXPECT_LT(said.at("worst_force").get<double>(), 1e-9) << said;
 }
 
+/// A head that is turned in 24 steps while the robot drives, and eight heads that ping at once.
+TEST_F(Rig, SweepsOfASonarAreThoseOfAnIndependentComputation) {
+  std::string scenario = office_rig(sized(60, 700), "rings = 2\ncolumns = 36\nstep_deg = 10\n");
+  scenario.insert(
+      scenario.find("[sensor.eyes]"),
+      "[sensor.head]\nkind = \"sonar\"\npings = 24\nping_step_deg = 15\nsweep_s = 1.2\nrate_hz = "
+      "0.8\nmax_range_m = 10\nresolution_deg = 3\nposition_m = [0.05, 0, 0.1]\nyaw_deg = 10\n"
+      "head_radius_m = 0.03\n[sensor.ring]\nkind = \"sonar\"\npings = 8\nfirst_deg = "
+      "22.5\nping_step_deg = 45\ncone_deg = 25\nresolution_deg = 4\nmax_range_m = 6\nrate_hz = 2\n"
+      "[material.'*']\necho_deg = 90\n");  // each hit is an echo
+  const RigJson said = look(run(scenario), sized(60, 700), 1, 100);
+  EXPECT_GE(said.at("pings").get<int>(), sized(150, 2000));
+  EXPECT_LT(said.at("worst_ping_m").get<double>(), 1e-6) << said;
+}
+
 /// A lidar on a robot that stands at free places, in a map of Quake and in a building that is a mesh.
 class StandingRig : public Rig {
  protected:

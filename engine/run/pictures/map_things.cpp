@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -101,7 +102,8 @@ void add_map_sensors(render::Picture& picture, const map::Document& document) {
   });
   for (const sim::SensorSpec& sensor : sensors)
     if (const auto field = field_of(sensor))
-      picture.polylines.push_back(outline_of(*field, *T_world_body, kLongest_m));
+      std::ranges::move(outlines_of(*field, *T_world_body, kLongest_m),
+                        std::back_inserter(picture.polylines));
 }
 
 void add_lights(render::Picture& picture, const world::CompiledWorld& world) {

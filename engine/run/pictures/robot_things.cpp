@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -174,7 +175,7 @@ void add_sensors(render::Picture& picture, const map::RobotFile& robot, double s
   for (const sim::SensorSpec& sensor : sim::sensors_of(robot)) {
     const auto field = field_of(sensor);
     if (!field) continue;
-    picture.polylines.push_back(outline_of(*field, Pose(), size_m));
+    std::ranges::move(outlines_of(*field, Pose(), size_m), std::back_inserter(picture.polylines));
     picture.markers.push_back({.positions = {field->T_body_sensor.t},
                                .shape = render::MarkerShape::kSquare,
                                .colour = render::palette::kSensor,

@@ -92,6 +92,32 @@ Vec3 shortened(const Vec3& from, const Vec3& to, double reach_m) {
   return way.norm() > reach_m ? Vec3(from + reach_m * way.normalized()) : to;
 }
 
+/// Whether each beam is drawn as what it covers: wide ones, as a sonar's, and the few of infrared detectors.
+bool shows_each_beam(const RecordedScan& scan) {
+  constexpr double kWide = 0.05;
+  constexpr std::size_t kFew = 8;
+  return scan.beam_rad >= kWide || scan.rays.size() <= kFew;
+}
+
+/// The edges of a beam from its head, and the arc at its range: what is there is somewhere on it. A narrow beam is a line.
+/// @param up  the axis that the beam is spread about, unit
+void add_sector(std::vector<std::array<Vec3, 2>>& lines, const Vec3& head, const Vec3& middle, const Vec3& up,
+                double width_rad) {
+  constexpr double kStep = std::numbers::pi / 60.0;
+  if (!(width_rad > 0.0)) {
+    lines.push_back({head, middle});
+    return;
+  }
+  const int steps = std::max(1, static_cast<int>(std::ceil(width_rad / kStep)));
+  const auto at = [&](int i) {
+    const double turn = width_rad * (static_cast<double>(i) / steps - 0.5);
+    return Vec3(head + Eigen::AngleAxisd(turn, up) * Vec3(middle - head));
+  };
+  lines.push_back({head, at(0)});
+  for (int i = 0; i < steps; ++i) lines.push_back({at(i), at(i + 1)});
+  lines.push_back({at(steps), head});
+}
+
 /// Where a beam ends that nothing was in the way of: not finite where its range is not known.
 Vec3 free_end(const Vec3& from, const Vec3& end, const Pose& T_world_sensor, const ScanRay& ray,
               double reach_m) {
@@ -110,6 +136,13 @@ void add_scans(render::Picture& picture, const Scans& scans, ScanPlacement place
                         .width_px = 0.8,
                         .opacity = 0.3,
                         .label = "beams without a return"};
+  render::Segments sectors{.colour = render::palette::kSensor,
+                           .width_px = 1.4,
+                           .opacity = 0.8,
+                           .label = "beams, up to what they met"};
+  render::Segments free_sectors = free;
+  free_sectors.width_px = 1.4;
+  free_sectors.opacity = 0.7;
   bool all_placed = true;
   for (const RecordedScan& scan : scans.scans) {
     const PlacedScan placed = place_scan(scan, scans.motion, placement);
@@ -125,13 +158,20 @@ void add_scans(render::Picture& picture, const Scans& scans, ScanPlacement place
                                         : meaning == Meaning::kIntensity ? intensity
                                                                          : 0.0});
       }
+      if (shows_each_beam(scan)) {
+        const Vec3 end = is_hit ? placed.ends[i]
+                                : free_end(placed.origins[i], placed.ends[i], T_world_sensor, ray, reach_m);
+        add_sector((is_hit ? sectors : free_sectors).pairs, placed.origins[i], end,
+                   T_world_sensor.q * Vec3::UnitZ(), scan.beam_rad);
+        continue;
+      }
       if (!flat) continue;
       const Vec3 end =
           is_hit ? placed.ends[i] : free_end(placed.origins[i], placed.ends[i], T_world_sensor, ray, reach_m);
       (is_hit ? beams : free).pairs.push_back({placed.origins[i], end});
     }
   }
-  for (render::Segments* lines : {&free, &beams}) {
+  for (render::Segments* lines : {&free, &beams, &free_sectors, &sectors}) {
     if (!lines->pairs.empty()) picture.segments.push_back(std::move(*lines));
   }
   add_hits(picture, hits, meaning, hits_text(placement, all_placed, scans.scans.size()));

@@ -163,6 +163,8 @@ class Collector {
     scan.T_body_sensor = mount_of(sensor);
     if (const Json range = value_at(sensor, {"max_range_m"}); range.is_number())
       scan.max_range_m = range.get<double>();
+    if (const Json width = value_at(sensor, {"intrinsics", "beam_rad"}); width.is_number())
+      scan.beam_rad = width.get<double>();
   }
 
   Json sensors_;

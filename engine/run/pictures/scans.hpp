@@ -30,6 +30,7 @@ struct RecordedScan {
   std::int64_t end_ns = 0;      ///< true times, where the log has them; else those of the sensor's clock
   bool has_times = false;       ///< whether rays have times of their own
   double max_range_m = 0.0;     ///< infinite where it is not known
+  double beam_rad = 0.0;        ///< full width of a beam; 0 where it is not known
   std::vector<ScanRay> rays{};  ///< those with an answer, of all layers
 };
 

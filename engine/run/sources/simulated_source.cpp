@@ -14,7 +14,9 @@
 #include "geom/arrays.hpp"
 #include "host/samples/bump_kind.hpp"
 #include "host/samples/encoder_kind.hpp"
+#include "host/samples/gnss_kind.hpp"
 #include "host/samples/imu_kind.hpp"
+#include "host/samples/magnetic_kind.hpp"
 #include "host/samples/odometry_kind.hpp"
 #include "host/samples/plane_kind.hpp"
 #include "host/samples/point_kind.hpp"
@@ -125,11 +127,41 @@ void add_values(const sense::EncoderTruth& encoders, TruthValues& values) {
   values.emplace("m_per_tick", encoders.m_per_tick);
 }
 
-/// Of each beam, where the scenario wants that: -1 where nothing is in range.
+/// -1 where nothing is in range.
+std::vector<double> finite_or_none(const std::vector<double>& ranges) {
+  std::vector<double> values;
+  for (const double range_m : ranges) values.push_back(std::isfinite(range_m) ? range_m : -1.0);
+  return values;
+}
+
+/// Of each beam, where the scenario wants that.
 void add_values(const sense::LidarTruth& lidar, TruthValues& values) {
-  std::vector<double> ranges;
-  for (const double range_m : lidar.range_m) ranges.push_back(std::isfinite(range_m) ? range_m : -1.0);
-  values.emplace("range_m", std::move(ranges));
+  values.emplace("range_m", finite_or_none(lidar.range_m));
+}
+
+/// Of each ping the nearest echo: its range, -1 where there is none, and where it came from, sensor frame.
+void add_values(const sense::SonarTruth& sonar, TruthValues& values) {
+  values.emplace("range_m", finite_or_none(sonar.range_m));
+  std::vector<double> directions;
+  for (const Vec3& direction : sonar.direction)
+    directions.insert(directions.end(), {direction.x(), direction.y(), direction.z()});
+  values.emplace("direction", std::move(directions));
+}
+
+void add_values(const sense::InfraredTruth& infrared, TruthValues& values) {
+  values.emplace("range_m", finite_or_none(infrared.range_m));
+}
+
+void add_values(const sense::GnssTruth& gnss, TruthValues& values) {
+  values.emplace("position_m", std::vector(gnss.position.begin(), gnss.position.end()));
+  values.emplace("correlated_m", std::vector(gnss.correlated.begin(), gnss.correlated.end()));
+}
+
+/// What is not known is left out.
+void add_values(const sense::CompassTruth& compass, TruthValues& values) {
+  if (!std::isnan(compass.heading_rad)) values.emplace("heading_rad", std::vector{compass.heading_rad});
+  if (!std::isnan(compass.deviation_rad)) values.emplace("deviation_rad", std::vector{compass.deviation_rad});
+  values.emplace("bias_rad", std::vector{compass.bias_rad});
 }
 
 void add_values(const sense::ImuTruth& imu, TruthValues& values) {
@@ -281,6 +313,14 @@ void SimulatedSource::add_sensor(const sense::LidarSpec& spec) {
   if (spec.labels && facts_.labels.empty()) add_labels();
 }
 
+void SimulatedSource::add_sensor(const sense::GnssSpec& spec) {
+  host::SensorInfo& info =
+      facts_.sensors.emplace_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+  if (const std::optional<GeoPoint>& origin = simulator_.earth().origin)
+    info.intrinsics = host::GnssIntrinsics{origin->latitude_deg, origin->longitude_deg, origin->altitude_m};
+  first_true_plane_.emplace_back();
+}
+
 /// Those of the scene, and behind them the robot's.
 void SimulatedSource::add_labels() {
   sim::SceneLabels scene = sim::label_scene(simulator_.compiled(), simulator_.models());
@@ -380,7 +420,7 @@ void SimulatedSource::add_reading(const sense::LidarSpec& spec, const sim::Readi
   const host::RangeScanReading into =
       host::add_range_scan(builder, facts_.sensors[reading.sensor].id,
                            {.width = pattern.width, .height = pattern.height, .layers = spec.returns});
-  const std::vector<std::int64_t>& offsets_ns = simulator_.lidar(reading.sensor).offsets_ns();
+  const std::vector<std::int64_t>& offsets_ns = simulator_.offsets_ns(reading.sensor);
   for (std::size_t layer = 0, k = 0; layer < spec.returns; ++layer) {
     for (std::size_t i = 0; i < pattern.rays.size(); ++i, ++k) {
       const sense::PatternRay& ray = pattern.rays[i];
@@ -391,6 +431,56 @@ void SimulatedSource::add_reading(const sense::LidarSpec& spec, const sim::Readi
     }
   }
   frame.identities.insert(frame.identities.end(), scan.range_m.size(), log::kNoLandmark);
+}
+
+namespace {
+
+/// A scan of what has no intensities: rays of a pattern, `layers` ranges each.
+void add_ranges(const host::RangeScanReading& into, const sense::RayPattern& pattern,
+                const std::vector<std::int64_t>& offsets_ns, const std::vector<double>& range_m) {
+  for (std::size_t k = 0; k < range_m.size(); ++k) {
+    const std::size_t i = k % pattern.rays.size();
+    into.rays.push_back({pattern.rays[i].azimuth_rad, pattern.rays[i].elevation_rad, range_m[k]});
+    into.data.t_offset_ns.push_back(offsets_ns[i]);
+  }
+}
+
+}  // namespace
+
+void SimulatedSource::add_reading(const sense::SonarSpec& spec, const sim::Reading& reading,
+                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+  const auto& sweep = std::get<sim::SonarSensed>(reading.sensed).reading;
+  add_ranges(
+      host::add_range_scan(builder, facts_.sensors[reading.sensor].id,
+                           {.width = spec.pings.width, .height = spec.pings.height, .layers = spec.echoes}),
+      spec.pings, simulator_.offsets_ns(reading.sensor), sweep.range_m);
+  frame.identities.insert(frame.identities.end(), sweep.range_m.size(), log::kNoLandmark);
+}
+
+void SimulatedSource::add_reading(const sense::InfraredSpec& spec, const sim::Reading& reading,
+                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+  const auto& seen = std::get<sim::InfraredSensed>(reading.sensed).reading;
+  add_ranges(host::add_range_scan(builder, facts_.sensors[reading.sensor].id,
+                                  {.width = spec.rays.width, .height = spec.rays.height, .layers = 1}),
+             spec.rays, simulator_.offsets_ns(reading.sensor), seen.range_m);
+  frame.identities.insert(frame.identities.end(), seen.range_m.size(), log::kNoLandmark);
+}
+
+void SimulatedSource::add_reading(const sense::GnssSpec&, const sim::Reading& reading, SourceFrame&,
+                                  host::FrameBuilder& builder) const {
+  const sense::GnssReading& fix = std::get<sim::GnssSensed>(reading.sensed).reading;
+  hw_gnss_t& into = host::add_gnss(builder, facts_.sensors[reading.sensor].id);
+  into.fix = fix.fix == sense::GnssFix::kNone ? HW_GNSS_NO_FIX : HW_GNSS_POSITION;
+  std::ranges::copy(fix.position, into.position_m);
+  std::ranges::copy(fix.covariance, into.covariance);
+}
+
+void SimulatedSource::add_reading(const sense::CompassSpec&, const sim::Reading& reading, SourceFrame&,
+                                  host::FrameBuilder& builder) const {
+  const sense::CompassReading& compass = std::get<sim::CompassSensed>(reading.sensed).reading;
+  hw_magnetic_t& into = host::add_magnetic(builder, facts_.sensors[reading.sensor].id);
+  into.heading_rad = compass.heading_rad;
+  into.variance_rad2 = compass.variance_rad2;
 }
 
 void SimulatedSource::add_reading(const sense::ImuSensorSpec&, const sim::Reading& reading, SourceFrame&,

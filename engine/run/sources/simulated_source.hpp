@@ -36,6 +36,7 @@ class SimulatedSource : public Source {
   void add_sensor(const sense::PlaneSensorSpec& spec);
   void add_sensor(const sim::EncoderSpec& spec);
   void add_sensor(const sense::LidarSpec& spec);
+  void add_sensor(const sense::GnssSpec& spec);
   /// Of a sensor whose facts are all in its specification, and which sees no planes.
   template <typename Spec>
   void add_sensor(const Spec& spec) {
@@ -53,6 +54,14 @@ class SimulatedSource : public Source {
   void add_reading(const sense::BumpSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
   void add_reading(const sim::EncoderSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::GnssSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::CompassSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::SonarSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::InfraredSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
   void add_reading(const sense::LidarSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;

@@ -11,6 +11,7 @@
 #include "base/random.hpp"
 #include "bsp/point_location.hpp"
 #include "bsp/segment.hpp"
+#include "map/earth.hpp"
 #include "solidity.hpp"
 #include "support/long_mode.hpp"
 #include "world/compiled_world.hpp"
@@ -414,6 +415,21 @@ TEST_F(CutCommands, DetailIsSolidAndDividesNothing) {
   EXPECT_TRUE(is_solid(editing, {2.1, 2, 1}));
   EXPECT_GT(divided, 1u);
   EXPECT_EQ(clusters(), 1u);
+}
+
+TEST_F(CutCommands, AGnssZoneIsNotSolid) {
+  editing.run_all(
+      {"room from 0,0 to 5,4 name=r", "start at 0.5,0.5,0.1", "box from 2,1 to 3,2,2.5 name=roof"});
+  EXPECT_TRUE(is_solid(editing, {2.5, 1.5, 1}));
+  editing.run("gnss_zone roof factor=5");
+  EXPECT_EQ(named(editing, "roof").classname(), "hw_gnss_zone");
+  EXPECT_FALSE(is_solid(editing, {2.5, 1.5, 1}));
+  const map::Earth earth = map::earth_of(editor::document_of(editing.session->state(), "map.map"));
+  ASSERT_EQ(earth.zones.size(), 1u);
+  EXPECT_EQ(earth.zones.front().factor, 5.0);
+  for (const Plane& plane : earth.zones.front().planes) EXPECT_LT(plane.distance({2.5, 1.5, 1}), 0.0);
+  EXPECT_TRUE(mentions(refusal(editing, "gnss_zone roof factor=0.5"), "below 1"));
+  EXPECT_TRUE(mentions(refusal(editing, "gnss_zone r"), "no solid"));
 }
 
 /// Groups of groups go with the last that was in them.

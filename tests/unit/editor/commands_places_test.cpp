@@ -104,6 +104,9 @@ TEST(PlacesCommands, ASensorMayBeOfAnyKindWithAnyOfItsKeys) {
   }
   map.run("sensor scan kind=lidar at=0.1,0,0.3 preset=lidar16 rate_hz=5");
   map.run("sensor imu kind=imu preset=imu_mems");
+  map.run("sensor ping kind=sonar beam=0,0;3,-50cm;3,0.5");
+  EXPECT_EQ(*test::named(map, "ping").head->find("beam_m"), "0 0 3 -0.5 3 0.5");
+  map.run("delete ping");
   EXPECT_TRUE(map::check(document_of(map)).empty());
   EXPECT_EQ(map::sensors(document_of(map)).size(), 2u);
 }

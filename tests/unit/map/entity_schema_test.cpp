@@ -59,6 +59,7 @@ std::string fgd_type(KeyKind kind) {
     case KeyKind::kPoint:
     case KeyKind::kVector:
     case KeyKind::kNumbers:
+    case KeyKind::kList:
     case KeyKind::kScale:
       break;
   }

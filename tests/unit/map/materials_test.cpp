@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "base/toml_reader.hpp"
+#include "map/check.hpp"
 #include "map/reader.hpp"
 #include "support/data.hpp"
 #include "support/errors.hpp"
+#include "support/room_maps.hpp"
 #include "support/temp_folder.hpp"
 
 namespace hallway::map {
@@ -166,9 +168,40 @@ TEST_F(MaterialFiles, OthersAreRefused) {
   EXPECT_TRUE(test::error_of([&] { read("empty.toml"); }));
 }
 
+TEST_F(MaterialFiles, TheCheckNamesWhatTheTableDoesNotHave) {
+  folder_.write("metals.toml",
+                "schema = \"hallway.materials/1\"\n[material.\"*steel*\"]\nreflectance = 0.7\n");
+  const auto checked = [&](const std::string& table, const std::string& materials) {
+    const std::string world = "{\n\"classname\" \"worldspawn\"\n\"_materials\" \"" + table + "\"\n}\n";
+    return check(parse(world + materials, (folder_ / "m.map").string()));
+  };
+  const auto box = [](const std::string& classname, const std::string& material) {
+    const std::string brush = test::box_brush({0, 0, 0}, {64, 64, 64}, material);
+    return "{\n\"classname\" \"" + classname + "\"\n" + brush + "}\n";
+  };
+  const auto of_materials = [](const std::vector<Finding>& findings) {
+    std::vector<std::string> texts;
+    for (const Finding& finding : findings) {
+      if (finding.id == "unknown-material" || finding.id == "bad-materials")
+        texts.push_back(finding.id + ": " + finding.message);
+    }
+    return texts;
+  };
+  // Each once; none of what is no surface: clips, triggers, zones.
+  const auto texts =
+      of_materials(checked("metals.toml", box("hw_add", "lab/Stainless_STEEL") + box("hw_add", "oak") +
+                                              box("hw_add", "oak") + box("hw_add", "clip") +
+                                              box("trigger_once", "pine") + box("hw_gnss_zone", "sky_hole")));
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_NE(texts[0].find("oak"), std::string::npos) << texts[0];
+  ASSERT_EQ(of_materials(checked("missing.toml", box("hw_add", "oak"))).size(), 1u);
+  EXPECT_TRUE(of_materials(checked("missing.toml", box("hw_add", "oak")))[0].starts_with("bad-materials"));
+}
+
 TEST_F(MaterialFiles, TheShippedOneIsRead) {
   const MaterialTable table = load_materials(test::source_folder() / "maps/materials.toml", settings_);
-  EXPECT_GT(table.of("big_GLASS_pane").lidar_dropout, 0.5);
+  EXPECT_GT(table.of("big_GLASS_pane").transparency, 0.5);
+  EXPECT_LT(table.of("black_cabinet").infrared, 0.05);
   EXPECT_EQ(table.of("window3"), table.of("glass"));
   EXPECT_EQ(table.of("unheard_of"), MaterialProperties());
 }

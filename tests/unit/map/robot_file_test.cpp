@@ -271,6 +271,34 @@ TEST(RobotFile, ChecksKnowIt) {
   EXPECT_EQ(ids_of(entity_text({{"classname", "worldspawn"}}) + kCylinder), "5 not-in-maps\n");
 }
 
+TEST(RobotFile, ASensorBesideTheBodyIsReported) {
+  const auto sensor_at = [](const char* place) {
+    return entity_text(
+        {{"classname", "hw_sensor"}, {"name", "head"}, {"kind", "sonar"}, {"position_m", place}});
+  };
+  const std::string robot = kRobotWorld + kCylinder;
+  EXPECT_EQ(ids_of(robot + sensor_at("0.1 0.1 2")), "") << "over the body";
+  const auto findings = check(parse(robot + sensor_at("0.9 1.2 0.1"), "a.map"));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings.front().id, "sensor-beside-body");
+  EXPECT_EQ(findings.front().severity, Severity::kWarning);
+  EXPECT_NE(findings.front().message.find(" m beside the robot's body"), std::string::npos);
+}
+
+/// Against the least of the distances to many points of the outline.
+TEST(RobotFile, TheDistanceBesideABodyIsThatToItsOutline) {
+  const RobotBody first = load_robot_file(hallway::test::source_folder() / "maps/robots/first.map")
+                              .body;  // corners cut off in front
+  EXPECT_EQ(distance_beside(first, {0.0, 0.0, 5.0}), 0.0);
+  EXPECT_EQ(distance_beside(first, {0.159, 0.079, -1.0}), 0.0);
+  EXPECT_NEAR(distance_beside(first, {0.26, 0.0, 0.1}), 0.1, 1e-12);
+  EXPECT_NEAR(distance_beside(first, {-0.17, -0.18, 0.1}), 0.05, 1e-12) << "from a corner";
+  EXPECT_NEAR(distance_beside(first, {0.16, 0.14, 0.1}), 0.03 * std::sqrt(2.0), 1e-12) << "from a slant";
+  RobotBody cylinder;
+  cylinder.radius_m = 0.5;
+  EXPECT_NEAR(distance_beside(cylinder, {3.0, 4.0, 0.0}), 4.5, 1e-12);
+}
+
 TEST(RobotFile, TheExamplesAreSoundAndCanonical) {
   for (const char* name : {"first", "cart"}) {
     SCOPED_TRACE(name);
@@ -280,7 +308,7 @@ TEST(RobotFile, TheExamplesAreSoundAndCanonical) {
     EXPECT_TRUE(check(document).empty());
     const RobotFile robot = load_robot_file(file);
     EXPECT_EQ(robot.zones.size(), robot.body.is_cylinder() ? 4u : 2u);
-    EXPECT_EQ(robot.sensors.size(), 3u);
+    EXPECT_EQ(robot.sensors.size(), robot.body.is_cylinder() ? 3u : 11u);
     EXPECT_EQ(robot.body.is_cylinder(), std::string(name) == "cart");
   }
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "sim/sensor_presets.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
 #include "support/errors.hpp"
@@ -29,6 +30,14 @@ const std::map<std::string, std::string> kSensors{
     {"scanner",
      "kind = 'lidar'\nrings = 3\ncolumns = 90\nstep_deg = 4\nnoise_m = 0.02\ndropout = 0.1\nrate_hz = "
      "9\nclock_jitter_s = 0.001\n"},
+    {"sonar",
+     "kind = 'sonar'\npreset = 'sonar_polaroid'\npings = 6\nping_step_deg = 60\nsweep_s = 0.3\nrate_hz = "
+     "3\nresolution_deg = "
+     "5\necho"
+     "es = 2\nfalse_rate = 0.1\n"},
+    {"infrared", "kind = 'infrared'\npreset = 'ir_sharp'\nmax_range_m = 3\nyaw_deg = 40\n"},
+    {"gnss", "kind = 'gnss'\npreset = 'gnss_meter'\nposition_m = [0, 0, 0.5]\n"},
+    {"compass", "kind = 'compass'\npreset = 'compass'\n"},
     {"imu", "kind = 'imu'\npreset = 'imu_mems'\nposition_m = [0.1, 0, 0]\nclock_drift_ppm = 100\n"},
     {"gyro", "kind = 'gyro'\ngyro_noise = 0.01\nrate_hz = 33\nphase_s = 0.01\n"},
     {"wheels", "kind = 'encoders'\nrate_hz = 50\n"},
@@ -98,6 +107,17 @@ std::vector<std::uint64_t> bits_of(const Reading& reading) {
   } else if (const auto* lidar = std::get_if<LidarSensed>(&reading.sensed)) {
     add_all(lidar->reading.range_m, bits);
     add_all(lidar->truth.range_m, bits);
+  } else if (const auto* sonar = std::get_if<SonarSensed>(&reading.sensed)) {
+    add_all(sonar->reading.range_m, bits);
+    add_all(sonar->truth.range_m, bits);
+  } else if (const auto* infrared = std::get_if<InfraredSensed>(&reading.sensed)) {
+    add_all(infrared->reading.range_m, bits);
+    add_all(infrared->truth.range_m, bits);
+  } else if (const auto* gnss = std::get_if<GnssSensed>(&reading.sensed)) {
+    add_all(gnss->reading.position, bits);
+    add_all(gnss->truth.correlated, bits);
+  } else if (const auto* compass = std::get_if<CompassSensed>(&reading.sensed)) {
+    add(compass->reading.heading_rad, bits);
   } else if (const auto* imu = std::get_if<ImuSensed>(&reading.sensed)) {
     add_all(imu->reading.angular_rad_s, bits);
     add_all(imu->reading.force_m_s2, bits);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <variant>
@@ -65,6 +66,7 @@ std::vector<std::string> names_of_sensors(const Scenario& scenario) {
 std::vector<std::string> values_of(const map::KeySpec& key) {
   if (key.kind == map::KeyKind::kFlag) return {"1", "0", "1"};
   if (key.kind == map::KeyKind::kVector) return {"0.1 0 0", "0.2 0 0", "0.3 0 0"};
+  if (key.kind == map::KeyKind::kList) return {"0 0 1 0 0 1", "0 0 2 0 0 2", "0 0 3 0 0 3"};  // corners
   if (key.kind == map::KeyKind::kChoice) {
     std::vector<std::string> values;
     for (const std::string_view choice : split(key.choices, ' ')) values.emplace_back(choice);
@@ -83,7 +85,7 @@ std::vector<std::string> values_of(const map::KeySpec& key) {
 std::string toml_of(const map::KeySpec& key, const std::string& value) {
   if (key.kind == map::KeyKind::kFlag) return value == "1" ? "true" : "false";
   if (key.kind == map::KeyKind::kChoice) return "'" + value + "'";
-  if (key.kind != map::KeyKind::kVector) return value;
+  if (key.kind != map::KeyKind::kVector && key.kind != map::KeyKind::kList) return value;
   std::string list = value;
   std::ranges::replace(list, ' ', ',');
   return "[" + list + "]";
@@ -93,6 +95,7 @@ std::string toml_of(const map::KeySpec& key, const std::string& value) {
 std::string noted(const map::KeySpec& key, const std::string& value) {
   if (key.kind == map::KeyKind::kFlag) return value == "1" ? "true" : "false";
   if (key.kind == map::KeyKind::kVector) return "[" + value.substr(0, value.find(' ')) + ", 0, 0]";
+  if (key.kind == map::KeyKind::kList) return "[" + std::regex_replace(value, std::regex(" "), ", ") + "]";
   return value;
 }
 
@@ -152,7 +155,7 @@ TEST(RobotFiles, EachKeyOfASensorIsOfTheFileUnlessItIsGivenNearer) {
       if (key.kind == map::KeyKind::kText) continue;  // a file, below
       std::string keys = key_text("name", "s") + key_text("kind", std::string(kind)) +
                          key_text(std::string(key.name), values_of(key)[0]);
-      if (key.name == "min_range_m") keys += key_text("max_range_m", "1e6");
+      if (key.name == "min_range_m" || key.name == "near_m") keys += key_text("max_range_m", "1e6");
       if (key.name == "step_deg") keys += key_text("columns", "1");
       const std::string robot =
           robot_text(kRoundBody + entity_text("hw_drive", "") + entity_text("hw_sensor", keys));

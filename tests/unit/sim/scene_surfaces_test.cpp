@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "sense/occluders.hpp"
@@ -67,8 +68,7 @@ class MaterialsOfAScene : public testing::Test {
     int compared = 0;
     for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
       if (!std::isfinite(scan.range_m[i])) continue;
-      const Pose at =
-          simulator.pose_at_time(frame.readings[0].t_begin_ns + simulator.lidar(0).offsets_ns()[i]);
+      const Pose at = simulator.pose_at_time(frame.readings[0].t_begin_ns + simulator.offsets_ns(0)[i]);
       const double azimuth = spec.pattern.rays[i].azimuth_rad;
       const Vec3 direction = at.q * Vec3(std::cos(azimuth), std::sin(azimuth), 0.0);
       const std::string material = material_at(at.t + scan.range_m[i] * direction);
@@ -159,7 +159,7 @@ TEST_F(MaterialsOfAScene, LabelsOfReturnsAreOfWhereTheyAre) {
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
     EXPECT_EQ(std::isfinite(scan.range_m[i]), truth.returned[i] != sense::LidarTruth::kNothing);
     if (!std::isfinite(scan.range_m[i])) continue;
-    const Pose at = world->pose_at_time(frame.readings[0].t_begin_ns + world->lidar(0).offsets_ns()[i]);
+    const Pose at = world->pose_at_time(frame.readings[0].t_begin_ns + world->offsets_ns(0)[i]);
     const double azimuth = spec.pattern.rays[i].azimuth_rad;
     const std::string material =
         material_at(at.t + truth.range_m[i] * (at.q * Vec3(std::cos(azimuth), std::sin(azimuth), 0.0)));
@@ -175,6 +175,46 @@ TEST_F(MaterialsOfAScene, BadTablesAreRefused) {
   ASSERT_TRUE(error);
   EXPECT_EQ(error->where().line, 16) << error->what();
   EXPECT_TRUE(hallway::test::error_of([&] { simulator("", "missing.toml"); }));
+}
+
+TEST_F(MaterialsOfAScene, WithoutATableAllHaveTheDefaults) {
+  const auto world = simulator("");
+  const trace::TriangleMesh mesh =
+      sense::make_occluders(world->compiled().partition.surface, triangles_of(world->models()));
+  const sense::SurfaceMaterial plain = undescribed_surfaces(mesh).material(0);
+  const map::MaterialProperties defaults;
+  EXPECT_EQ(plain.reflectivity, defaults.reflectance);
+  EXPECT_EQ(plain.infrared, defaults.infrared);
+  EXPECT_EQ(plain.transparency, defaults.transparency);
+  EXPECT_NEAR(plain.echo_angle_rad, defaults.echo_deg * std::numbers::pi / 180.0, 1e-12);
+}
+
+/// A map that places a model of two materials, and a table that describes one of them.
+TEST(MaterialsOfAModel, ThatATableDoesNotDescribeAreReported) {
+  const hallway::test::TempFolder folder;
+  folder.write("a.mtl", "newmtl oak_wood\nKd 1 1 1\nnewmtl steel\nKd 1 1 1\n");
+  folder.write(
+      "a.obj",
+      "mtllib a.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 0 1\nusemtl oak_wood\nf 1 2 3\nusemtl steel\nf 1 2 4\n");
+  folder.write("small.map",
+               hallway::test::map_text(
+                   hallway::test::pillars(),
+                   "{\n\"classname\" \"hw_mesh\"\n\"origin\" \"0 0 0\"\n\"model\" \"a.obj\"\n}\n"));
+  const auto problems = [&](const std::string& more) {
+    const Simulator simulator(load_scenario(folder.write("s.toml", hallway::test::scenario_text(more))), 1,
+                              trace::Backend::kEmbree);
+    std::string texts;
+    for (const Error& problem : simulator.problems()) texts += std::string(problem.what()) + "\n";
+    return texts;
+  };
+  const std::string table = "[material.'*wood*']\ninfrared = 0.4\n";
+  const std::string sonar = "[sensor.s]\nkind = 'sonar'\n", points = "[sensor.p]\nkind = 'points'\n";
+  const std::string said = problems(sonar + table);
+  EXPECT_NE(said.find("says nothing of `steel` of models"), std::string::npos) << said;
+  EXPECT_EQ(said.find("oak_wood"), std::string::npos) << said;
+  EXPECT_EQ(problems(sonar), "") << "without a table all have the defaults";
+  EXPECT_EQ(problems(points + table), "") << "no sensor uses materials";
+  EXPECT_EQ(problems(sonar + table + "[material.steel]\nlike = '*wood*'\n"), "");
 }
 
 TEST(MaterialsOfAModel, AreItsOwnNames) {
