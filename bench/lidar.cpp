@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // bench_lidar SCENARIO.toml [SCENARIO.toml ...]: what a scan of a lidar of 16 x 1800 beams costs against Embree's bare rtcIntersect1 of the same rays on
-// the same triangles, on one thread, at 20 places of the scenario's way. Every figure is a median over rounds in which all contestants take turns.
+// the same triangles, on one thread, at 20 places of the scenario's way; and what eight sonars cost. Every figure is a median over rounds in which all contestants take turns.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sense/occluders.hpp"
+#include "sense/sonar_sensor.hpp"
 #include "sim/simulator.hpp"
 #include "trace/embree_library.hpp"
 
@@ -156,6 +157,18 @@ void run(const std::string& file) {
       ratios[i].push_back(reference_s.back() / sensor_s[i].back());
     }
   }
+  sense::SonarSpec ring;
+  ring.name = "sonar";
+  for (int i = 0; i < 8; ++i) ring.pings.rays.push_back({.azimuth_rad = i * 45 * kDegree});
+  const sense::SonarSensor sonar(ring, simulator.scene(), surfaces, 1);
+  sense::SonarReading sweep;
+  sense::SonarTruth sweep_truth;
+  std::vector<double> sonar_s;
+  for (int round = 0; round < kRounds; ++round) {
+    sonar_s.push_back(seconds([&](std::int64_t t_ns) {
+      sonar.read(static_cast<std::uint32_t>(t_ns / kScan_ns), t_ns, motion, 1, sweep, sweep_truth);
+    }));
+  }
   std::printf("%s: %zu triangles, %zu beams a scan\n", file.c_str(), mesh.triangles.size(),
               directions.size());
   std::printf("  rtcIntersect1, single precision: %.1f ns a ray\n", median(reference_s) / n * 1e9);
@@ -163,6 +176,9 @@ void run(const std::string& file) {
     std::printf("  %-42s %6.1f ns a beam, %6.1f scans/s, %.2f of rtcIntersect1's rate\n",
                 contestants[i].first, median(sensor_s[i]) / n * 1e9, 1.0 / median(sensor_s[i]),
                 median(ratios[i]));
+  constexpr double kSonar_hz = 20.0;
+  std::printf("  eight sonars at %g Hz, cones of 30 degrees, %zu rays each: %.1f %% of a core\n", kSonar_hz,
+              sonar.beam().size(), 100.0 * kSonar_hz * median(sonar_s));
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ if [[ -f $building ]]; then
 fi
 "$build/bin/bench_lidar" "${lidar_maps[@]}"
 echo
+/usr/bin/python3 "$here/rig_rate.py" "$build/bin/hallway" "$out/rig_rate"
+echo
 "$build/bin/bench_slam_point_speed"
 echo
 "$build/bin/bench_slam_plane_pairs"

@@ -52,4 +52,8 @@ done
 "$hallway" run "$here/../maps/office_rig.toml" --steps 160 --out "$work/office_rig" --quiet
 "$hallway" render "$work/office_rig" --iteration 151 --view perspective --eye -8,-17,19 --target 13,5,0 --size 1120x640 \
   --hide all --show map,body,seen,deskewed --out "$here/scan.png"
+# A sweep of the first robot's sonar in a room (thesis 2.2.3, figures 12 and 14), deskewed by the true motion: arcs touch walls, a table and a locker.
+"$hallway" run "$here/../maps/senses.toml" --out "$work/senses" --quiet
+"$hallway" render "$work/senses" --iteration 400 --view top --area 3.4,-0.3,10.6,8.3 --size 760x860 \
+  --hide all --show map,body,trail,truth,deskewed --out "$here/sonar.png"
 ls -l "$here"/*.png
