@@ -46,9 +46,7 @@ sense::MouseOdometrySpec read_mouse(const std::string& name, SensorReader& senso
   if (const double apart_m = sensor.number("apart_m"); apart_m > 0.0)
     spec.places = {{.position_m = {0.0, 0.5 * apart_m}}, {.position_m = {0.0, -0.5 * apart_m}}};
   spec.off_plane = read_off_plane(sensor);
-  spec.T_body_sensor.t = sensor.position();
-  spec.T_body_sensor.q = from_yaw_pitch_roll(sensor.angle("yaw_deg"), 0.0, 0.0);
-  spec.timing = sensor.timing();
+  sensor.place(spec);
   return spec;
 }
 
@@ -73,9 +71,7 @@ sense::ImuSensorSpec read_inertial(const std::string& name, SensorReader& sensor
     spec.accelerometer.misalignment_rad = spec.gyro.misalignment_rad;
     spec.gravity_m_s2 = sensor.number("gravity_m_s2");
   }
-  spec.T_body_sensor.t = sensor.position();
-  spec.T_body_sensor.q = sensor.orientation();
-  spec.timing = sensor.timing();
+  sensor.place(spec);
   return spec;
 }
 
@@ -85,9 +81,7 @@ sense::GnssSpec read_gnss(const std::string& name, SensorReader& sensor) {
   spec.level = {.noise_m = sensor.number("noise_m"), .correlated_m = sensor.number("correlated_m")};
   spec.height = {.noise_m = sensor.number("noise_up_m"), .correlated_m = sensor.number("correlated_up_m")};
   spec.correlation_s = sensor.number("correlation_s");
-  spec.T_body_sensor.t = sensor.position();
-  spec.T_body_sensor.q = from_yaw_pitch_roll(sensor.angle("yaw_deg"), 0.0, 0.0);
-  spec.timing = sensor.timing();
+  sensor.place(spec);
   return spec;
 }
 
@@ -96,9 +90,7 @@ sense::CompassSpec read_compass(const std::string& name, SensorReader& sensor) {
   spec.name = name;
   spec.noise_rad = sensor.angle("noise_deg");
   spec.bias_sigma_rad = sensor.angle("bias_sigma_deg");
-  spec.T_body_sensor.t = sensor.position();
-  spec.T_body_sensor.q = sensor.orientation();
-  spec.timing = sensor.timing();
+  sensor.place(spec);
   return spec;
 }
 

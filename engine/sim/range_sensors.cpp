@@ -68,14 +68,6 @@ void read_reach(SensorReader& sensor, Spec& spec) {
   if (spec.max_range_m == 0.0) throw sensor.error("max_range_m", "must be above 0");
 }
 
-/// Where the sensor is, and when it measures.
-template <typename Spec>
-void read_place(SensorReader& sensor, Spec& spec) {
-  spec.T_body_sensor.t = sensor.position();
-  spec.T_body_sensor.q = sensor.orientation();
-  spec.timing = sensor.timing();
-}
-
 }  // namespace
 
 std::span<const char* const> spin_keys() {
@@ -100,7 +92,7 @@ sense::LidarSpec read_lidar(const std::string& name, SensorReader& sensor) {
   spec.own_body = sensor.flag("own_body");
   spec.true_ranges = sensor.flag("true_ranges");
   if (sensor.has("labels")) spec.labels = sensor.flag("labels");
-  read_place(sensor, spec);
+  sensor.place(spec);
   return spec;
 }
 
@@ -123,7 +115,7 @@ sense::SonarSpec read_sonar(const std::string& name, SensorReader& sensor) {
   spec.apart_m = sensor.number("echo_apart_m");
   spec.crosstalk = sensor.flag("crosstalk");
   spec.own_body = sensor.flag("own_body");
-  read_place(sensor, spec);
+  sensor.place(spec);
   try {
     sense::echo_rays(spec.beam, spec.max_range_m);
   } catch (const Error& error) {
@@ -145,7 +137,7 @@ sense::InfraredSpec read_infrared(const std::string& name, SensorReader& sensor)
   if (spec.near_m > spec.max_range_m)
     throw sensor.error("near_m", "near_m = " + format_double(spec.near_m) +
                                      " is above max_range_m = " + format_double(spec.max_range_m));
-  read_place(sensor, spec);
+  sensor.place(spec);
   return spec;
 }
 

@@ -59,6 +59,14 @@ class SensorReader {
                       .drift_ppm = number_if_told("clock_drift_ppm"),
                       .jitter_s = number_if_told("clock_jitter_s")}};
   }
+  /// Where the sensor is, turned about z alone where its kind has no other angles, and when it measures.
+  template <typename Spec>
+  void place(Spec& spec) {
+    spec.T_body_sensor.t = position();
+    spec.T_body_sensor.q =
+        is_known("pitch_deg") ? orientation() : from_yaw_pitch_roll(angle("yaw_deg"), 0.0, 0.0);
+    spec.timing = timing();
+  }
   sense::DetectionSpec detection() {
     return {.dropout = number_if_told("dropout"), .clutter = number_if_told("clutter")};
   }
@@ -85,6 +93,9 @@ class SensorReader {
   }
 
  private:
+  bool is_known(const char* key) const {
+    return map::find_entity_spec("hw_sensor")->key(key, kind_) != nullptr;
+  }
   const map::KeySpec& spec(const char* key) const { return map::sensor_key(kind_, key); }
   Range range(const char* key) const { return {spec(key).low, spec(key).high, spec(key).above_low}; }
 

@@ -75,9 +75,7 @@ sense::PointSensorSpec read_points(const std::string& name, SensorReader& sensor
   spec.noise_m = sensor.one_or_three("noise_m");
   spec.noise_per_m = sensor.one_or_three("noise_per_m");
   spec.detection = sensor.detection();
-  spec.T_body_sensor.t = sensor.position();
-  spec.T_body_sensor.q = sensor.orientation();
-  spec.timing = sensor.timing();
+  sensor.place(spec);
   return spec;
 }
 
@@ -96,15 +94,13 @@ sense::PlaneSensorSpec read_view(const std::string& name, SensorReader& sensor) 
   spec.noise_angle = sensor.angle("noise_angle_deg");
   spec.noise_end_m = sensor.number("noise_end_m");
   spec.detection = sensor.detection();
-  spec.timing = sensor.timing();
-  spec.T_body_sensor.t = sensor.position();
+  sensor.place(spec);
   return spec;
 }
 
 sense::PlaneSensorSpec read_planes(const std::string& name, SensorReader& sensor) {
   sense::PlaneSensorSpec spec = read_view(name, sensor);
   spec.view.bounded_sides = sensor.flag("bounded_sides");
-  spec.T_body_sensor.q = from_yaw_pitch_roll(sensor.angle("yaw_deg"), 0.0, 0.0);
   return spec;
 }
 
@@ -116,7 +112,6 @@ sense::PlaneSensorSpec read_faces(const std::string& name, SensorReader& sensor)
       throw sensor.error(key, std::string(key) + " = " + format_double(sensor.number(key)) +
                                   ": a sensor of faces sees less than 180 degrees");
   }
-  spec.T_body_sensor.q = sensor.orientation();
   return spec;
 }
 

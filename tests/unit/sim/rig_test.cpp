@@ -262,6 +262,15 @@ TEST(Rig, OdometryGoesOnWhileItIsOff) {
   EXPECT_EQ(some.back(), all.back()) << "what it sums up has gone on";
 }
 
+TEST(Rig, ASensorReachesAsFarAsItsKindDoes) {
+  const RigWorld world(
+      "[sensor.a]\nkind = 'sonar'\n[sensor.b]\nkind = 'infrared'\n[sensor.c]\nkind = 'lidar'\n");
+  const auto& sensors = world.simulator->scenario().sensors;
+  EXPECT_EQ(std::get<sense::SonarSpec>(sensors[0]).max_range_m, 10.0);
+  EXPECT_EQ(std::get<sense::InfraredSpec>(sensors[1]).max_range_m, 0.8);
+  EXPECT_EQ(std::get<sense::LidarSpec>(sensors[2]).max_range_m, 100.0);
+}
+
 TEST(Rig, APresetCountsWhereNothingElseIsSaid) {
   const RigWorld world("[sensor.a]\nkind = 'lidar'\npreset = 'lidar2d_270'\ncolumns = 541\nstep_deg = 0.5\n");
   const auto& spec = std::get<sense::LidarSpec>(world.simulator->scenario().sensors[0]);
