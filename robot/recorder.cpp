@@ -86,13 +86,14 @@ void Recorder::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Recorder::finish(const record::FinalMap& map) {
+void Recorder::finish(record::FinalMap& map) {
   stop();
   if (failure_) std::rethrow_exception(failure_);
   if (log_) {
     log_->record_map(map);
     log_->finish();
   }
+  if (!map.topology) map.topology = tables_.topology();
   tables_.close();
   epochs_.write(folder_, map.joined_epochs);
 }

@@ -45,8 +45,8 @@ class Recorder {
 
   /// Takes what is in `frame` and leaves memory to be used again in it. Throws what the writing of earlier frames threw.
   void add(FrameRecord& frame);
-  /// Waits until everything is written, then the map too, and the files are closed. Nothing is added after it. Throws Error{kIo}.
-  void finish(const record::FinalMap& map);
+  /// Waits until everything is written, then the map too, and the files are closed. A map without a topology gets the one that was put last. Nothing is added after it. Throws Error{kIo}.
+  void finish(record::FinalMap& map);
 
   /// How many frames were not written.
   std::uint64_t unrecorded() const { return unrecorded_; }

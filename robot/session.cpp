@@ -6,6 +6,7 @@
 #include "record/files.hpp"
 #include "record/manifest.hpp"
 #include "record/output_folder.hpp"
+#include "record/plugin_topology.hpp"
 #include "robot/robot_json.hpp"
 #include "robot/watchdog.hpp"
 
@@ -103,7 +104,7 @@ class Session {
 
   void finish(Loop& loop, const Gate& gate, Recorder& recorder,
               const std::vector<host::Counter>& driver_counters) {
-    const record::FinalMap map = loop.final_map();
+    record::FinalMap map = loop.final_map();
     recorder.finish(map);
     for (std::size_t i = 0; i < pipeline_->size(); ++i) {
       const host::PluginInfo& info = pipeline_->stage(i).info();
@@ -119,6 +120,7 @@ class Session {
     result_.manifest["iterations"] = loop.counts().iterations;
     result_.manifest["stopped_early"] = result_.end == LoopEnd::kInterrupt;
     record::describe_failures(config_.limits.on_failure, result_.failures, result_.manifest);
+    if (map.topology) result_.manifest["topology"] = record::describe_topology(*map.topology);
     result_.manifest["robot"] = print_robot({.robot = robot_,
                                              .timing = timing_,
                                              .loop = loop,

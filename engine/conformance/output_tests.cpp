@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What process() puts.
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,17 @@ void numbers_parts(const Subject& subject) {
   });
 }
 
+void keeps_places(const Subject& subject) {
+  std::map<std::uint32_t, std::int64_t> known;
+  check_walk(subject, [&](const LoadedLibrary&, const Answer& answer) {
+    for (const auto& [id, t_ns] : answer.put.places) {
+      const auto before = known.emplace(id, t_ns).first;
+      demand(before->second == t_ns,
+             answer.call + "() put the place " + std::to_string(id) + " with another time than before");
+    }
+  });
+}
+
 void puts_in_turn(const Subject& subject) {
   Active plugin(subject);
   plugin.walk(0, 3);
@@ -69,14 +82,16 @@ void puts_in_turn(const Subject& subject) {
 
 constexpr Test kOutputTests[] = {
     {"outputs-valid",
-     "What process() puts is as output.h and planes.h say: finite, unit quaternions and normals, distinct "
-     "ids, counts that match.",
+     "What process() puts is as output.h, planes.h, topology.h and drawing.h say: finite, unit quaternions "
+     "and normals, distinct ids, edges between nodes, counts that match.",
      puts_valid_outputs},
     {"outputs-declared", "Only outputs are put whose kinds the plugin declares.", puts_what_it_declares},
     {"outputs-reserved", "Flags and reserved members of what is put are 0.", writes_zeros},
     {"outputs-map-epoch",
      "Parts of the map are numbered by whole numbers, once in a call, and joined to older ones.",
      numbers_parts},
+    {"outputs-topology", "A place of a topology keeps its id, and the time at which it was met first.",
+     keeps_places},
     {"outputs-in-turn", "Outputs are put during process() and report(), and at no other time.", puts_in_turn},
 };
 

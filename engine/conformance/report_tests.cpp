@@ -59,7 +59,8 @@ void reporting_changes_nothing(const Subject& subject) {
 
 constexpr Test kReportTests[] = {
     {"report-valid",
-     "The map that report() puts is as output.h and mapped_planes.h say, without associations and planes.",
+     "The map that report() puts is as output.h, mapped_planes.h and topology.h say, without associations, "
+     "planes and drawings.",
      reports_a_valid_map},
     {"report-refined", "report() with HW_REPORT_REFINE succeeds, and puts a map that is as output.h says.",
      reports_a_valid_refined_map},

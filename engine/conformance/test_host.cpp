@@ -74,6 +74,9 @@ Collected TestHost::finish() {
   open_ = false;
   collected_.problem = collector_.finish();
   collected_.epoch_problem = epoch_problem(collector_.outputs());
+  if (const host::Topology* topology = collector_.outputs().topology()) {
+    for (const hw_topology_node_t& node : topology->nodes()) collected_.places[node.id] = node.t_ns;
+  }
   collected_.bytes = bytes_of(collector_.outputs(), n_samples_) + collected_.problem;
   return std::move(collected_);
 }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ struct Collected {
   std::string problem{};            ///< what the host finds wrong with it; empty: nothing
   std::set<std::uint32_t> kinds{};  ///< of outputs
   std::string epoch_problem{};  ///< what is wrong with the counters of HW_COUNTER_MAP_EPOCH; empty if nothing
-  bool reserved_written = false;  ///< a member was not 0 that must be
+  std::map<std::uint32_t, std::int64_t> places{};  ///< of the topology: the time of each node, by its id
+  bool reserved_written = false;                   ///< a member was not 0 that must be
 };
 
 /// The host of one instance. It takes wrong outputs without a word, so that the plugin goes on and only what asks for them finds them.

@@ -127,6 +127,15 @@ void set(::foxglove::SpherePrimitive& sphere, const Ball& value) {
   set(*sphere.mutable_color(), value.colour);
 }
 
+void set(::foxglove::TextPrimitive& text, const Text& value) {
+  set(*text.mutable_pose(), Pose{Quat::Identity(), value.place});
+  text.set_billboard(true);
+  text.set_font_size(value.size_px);
+  text.set_scale_invariant(true);
+  set(*text.mutable_color(), value.colour);
+  text.set_text(value.text);
+}
+
 ::foxglove::Log::Level level_of(std::uint32_t level) {
   switch (level) {
     case HW_LOG_DEBUG:
@@ -244,6 +253,7 @@ std::string print_scene(std::int64_t t_ns, const Entity& entity) {
   drawn.set_frame_locked(true);
   for (const Line& line : entity.lines) set(*drawn.add_lines(), line);
   for (const Ball& ball : entity.balls) set(*drawn.add_spheres(), ball);
+  for (const Text& text : entity.texts) set(*drawn.add_texts(), text);
   return bytes_of(scene);
 }
 

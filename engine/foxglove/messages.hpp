@@ -68,12 +68,21 @@ struct Ball {
   Colour colour{};
 };
 
+/// A text that faces whoever looks at it.
+struct Text {
+  Vec3 place = Vec3::Zero();  ///< of its middle
+  std::string text{};
+  double size_px = 12.0;
+  Colour colour{};
+};
+
 /// Something that is drawn until another entity of the same channel and id takes its place.
 struct Entity {
   std::string frame{};  ///< that its coordinates are in, and with which it moves
   std::string id{};
   std::vector<Line> lines{};
   std::vector<Ball> balls{};
+  std::vector<Text> texts{};
 };
 
 /// What a plugin has logged, or what is said of it.

@@ -37,6 +37,8 @@ constexpr const char* kPathPoses = "/foxglove/path_poses";
 constexpr const char* kLandmarks = "/foxglove/landmarks";
 constexpr const char* kLandmarkCloud = "/foxglove/landmark_cloud";
 constexpr const char* kMappedPlanes = "/foxglove/mapped_planes";
+constexpr const char* kTopology = "/foxglove/topology";
+constexpr const char* kDrawing = "/foxglove/drawing";
 constexpr const char* kSubmaps = "/foxglove/submaps";
 constexpr const char* kTruePose = "/foxglove/truth/pose";
 constexpr const char* kTruePath = "/foxglove/truth/path";
@@ -208,6 +210,7 @@ void View::add_true_pose(const log::FrameStamp& stamp, const log::IterationPose&
     put_transform(stamp, frames::kWorld, frames::kTrueBody, T_world_body);
     put(topics::kTruePose, Schema::kPoseInFrame, stamp, print_pose(stamp.t_ns, frames::kWorld, T_world_body));
     truth_ = {stamp.iteration, {T_world_body.q.normalized(), T_world_body.t}};
+    true_history_.add(stamp.t_ns, truth_->T_world_body);
     place_odometry(stamp, truth_->T_world_body);
     true_poses_.add(T_world_body);
     if (true_poses_.is_due()) put_poses(topics::kTruePathPoses, stamp, frames::kWorld, true_poses_);
@@ -222,6 +225,7 @@ void View::add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose) {
   place_map(stamp, T_map_body);
   put_transform(stamp, frames::kMap, frames::kBody, T_map_body);
   put(topics::kPose, Schema::kPoseInFrame, stamp, print_pose(stamp.t_ns, frames::kMap, T_map_body));
+  history_.add(stamp.t_ns, T_map_body);
   path_.add(stamp.iteration, T_map_body.t);
   if (path_.is_due()) put_path(stamp);
   poses_.add(T_map_body);
@@ -247,6 +251,24 @@ void View::add_map(const log::FrameStamp& stamp, const log::MapAnswer& map) {
       print_point_cloud(stamp.t_ns, frames::kMap, cloud_of_landmarks(map.landmarks)));
   if (!map.planes.empty()) put_scene(topics::kMappedPlanes, stamp, mapped_plane_outlines(map.planes));
   put_scene(topics::kSubmaps, stamp, submap_stars(map));
+}
+
+std::optional<SeenPlace> View::place_of(const log::TopologyNode& node) const {
+  const Pose* body = (true_history_.empty() ? history_ : true_history_).at(node.t_ns);
+  if (body == nullptr) return std::nullopt;
+  return SeenPlace{*body * Vec3(node.x_m, node.y_m, 0.0), body->t};
+}
+
+void View::add_topology(const log::FrameStamp& stamp, const log::Topology& topology) {
+  std::vector<std::optional<SeenPlace>> places;
+  for (const log::TopologyNode& node : topology.nodes) places.push_back(place_of(node));
+  const char* frame = true_history_.empty() ? frames::kMap : frames::kWorld;
+  put_scene(topics::kTopology, stamp, topology_graph(frame, topology, places));
+}
+
+void View::add_drawing(const log::FrameStamp& stamp, const log::Drawing& drawing) {
+  const char* frame = true_history_.empty() ? frames::kBody : frames::kTrueBody;
+  put_scene(topics::kDrawing, stamp, drawing_scene(frame, drawing));
 }
 
 void View::set_body(std::span<const Vec2> corners, double bottom_m, double top_m) {

@@ -10,7 +10,9 @@
 
 #include "foxglove/messages.hpp"
 #include "foxglove/path_line.hpp"
+#include "foxglove/pose_history.hpp"
 #include "foxglove/pose_list.hpp"
+#include "foxglove/topology_scene.hpp"
 #include "host/stage.hpp"
 #include "log/mcap_writer.hpp"
 #include "log/run_log.hpp"
@@ -47,6 +49,10 @@ class View {
   void add_true_pose(const log::FrameStamp& stamp, const log::IterationPose& pose);
   void add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose);
   void add_map(const log::FrameStamp& stamp, const log::MapAnswer& map);
+  /// A plugin's topological map, each node where the body truly was at the node's time; without truth, where the plugin took it to be.
+  void add_topology(const log::FrameStamp& stamp, const log::Topology& topology);
+  /// What a plugin shows of itself, at the true body or, without truth, where the plugin takes it to be.
+  void add_drawing(const log::FrameStamp& stamp, const log::Drawing& drawing);
 
   /// The robot's body, for the first frame; before it. Corners as of robot_body().
   void set_body(std::span<const Vec2> corners, double bottom_m, double top_m);
@@ -82,6 +88,7 @@ class View {
   void put_path(const log::FrameStamp& stamp);
   void put_true_path(const log::FrameStamp& stamp);
   void place_map(const log::FrameStamp& stamp, const Pose& T_map_body);
+  std::optional<SeenPlace> place_of(const log::TopologyNode& node) const;
   std::uint16_t channel_of(const std::string& topic, Schema schema);
 
   log::McapWriter& log_;
@@ -114,6 +121,8 @@ class View {
   /// Whether the map has a place in the world, and why.
   enum class MapPlace : std::uint8_t { kNone, kAssumed, kFromTruth };
   MapPlace map_place_ = MapPlace::kNone;
+  PoseHistory true_history_;
+  PoseHistory history_;  ///< of poses in the map
   PathLine true_path_;
   PathLine path_;
   PoseList true_poses_;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "log/id_pairs.hpp"
 #include "log/map_landmarks.hpp"
 #include "log/plane_landmarks.hpp"
 #include "log/submap_poses.hpp"
+#include "log/topology.hpp"
 
 namespace hallway::log {
 
@@ -18,6 +20,7 @@ struct MapAnswer {
   std::vector<IdPair> submap_members{};  ///< submap, landmark or plane
   std::vector<IdPair>
       joined_epochs{};  ///< number of a part of the map, and that of the part that it was joined to
+  std::optional<Topology> topology{};  ///< where the plugin put one
 };
 
 }  // namespace hallway::log

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "log/drawing.hpp"
 #include "log/drive_tables.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_answer.hpp"
@@ -21,6 +22,7 @@
 #include "log/pose_covariances.hpp"
 #include "log/poses.hpp"
 #include "log/surface_label.hpp"
+#include "log/topology.hpp"
 #include "log/true_planes.hpp"
 
 namespace hallway::log {
@@ -40,12 +42,14 @@ inline constexpr std::string_view kTruePlanes = plane_names::kTruePlanesTopic;  
 inline constexpr std::string_view kLabels = "/hallway/truth/labels";            ///< of the returns of lidars
 inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
 inline constexpr std::string_view kAssociations = "/hallway/output/associations";
-inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< how to drive
-inline constexpr std::string_view kPlanes = "/hallway/output/planes";    ///< found in the readings
-inline constexpr std::string_view kMap = "/hallway/output/map";          ///< at the end, as re-solved
-inline constexpr std::string_view kObeyed = "/hallway/drive/obeyed";     ///< the command from a frame on
-inline constexpr std::string_view kContact = "/hallway/drive/contact";   ///< that began
-inline constexpr std::string_view kEvent = "/hallway/drive/event";       ///< of the scenario
+inline constexpr std::string_view kCommand = "/hallway/output/command";    ///< how to drive
+inline constexpr std::string_view kPlanes = "/hallway/output/planes";      ///< found in the readings
+inline constexpr std::string_view kMap = "/hallway/output/map";            ///< at the end, as re-solved
+inline constexpr std::string_view kTopology = "/hallway/output/topology";  ///< the whole of it
+inline constexpr std::string_view kDrawing = "/hallway/output/drawing";    ///< what a plugin shows of itself
+inline constexpr std::string_view kObeyed = "/hallway/drive/obeyed";       ///< the command from a frame on
+inline constexpr std::string_view kContact = "/hallway/drive/contact";     ///< that began
+inline constexpr std::string_view kEvent = "/hallway/drive/event";         ///< of the scenario
 }  // namespace topics
 
 /// Ids of channels and schemas below this one are the run's own.
@@ -124,7 +128,11 @@ class RunLogWriter {
   void add_event(const FrameStamp& stamp, const EventRow& event);
   /// The planes that were found in it.
   void add_planes(const FrameStamp& stamp, std::uint32_t sample, std::span<const PlaneObservation> planes);
-  /// The map at the end, under the stamp of the last frame.
+  /// The topological map from then on, whole.
+  void add_topology(const FrameStamp& stamp, const Topology& topology);
+  /// What a plugin shows at the frame.
+  void add_drawing(const FrameStamp& stamp, const Drawing& drawing);
+  /// The map at the end, under the stamp of the last frame; its topology is a message of its own, add_topology().
   void add_map(const FrameStamp& stamp, const MapAnswer& map);
   /// Makes sure that what was added survives the end of the program (McapWriter::keep_chunk).
   void keep();
@@ -179,8 +187,18 @@ struct PoseMessage {
   PoseAnswer pose;
 };
 
+struct TopologyMessage {
+  std::uint32_t iteration = 0;
+  Topology topology;
+};
+
+struct DrawingMessage {
+  std::uint32_t iteration = 0;
+  Drawing drawing;
+};
+
 /// What a plugin answered; std::monostate for all else.
-using AnswerMessage = std::variant<std::monostate, PoseMessage, MapAnswer>;
+using AnswerMessage = std::variant<std::monostate, PoseMessage, MapAnswer, TopologyMessage, DrawingMessage>;
 
 /// What a message says, by its channel's topic. Throws as parse_run_message() does.
 AnswerMessage parse_answer_message(const McapChannel& channel, const McapMessage& message);

@@ -19,10 +19,10 @@ inline constexpr const char* kFrameEncoding = "x-hallway-frame";
 
 /// All topics; a channel's id is its topic's place in this list, counted from 1. New ones go to the end.
 inline constexpr std::array kRunTopics{
-    topics::kActivation, topics::kTrueLandmarks, topics::kFrame,        topics::kTruePose,
-    topics::kIdentities, topics::kPose,          topics::kAssociations, topics::kMap,
-    topics::kCommand,    topics::kPlanes,        topics::kTruePlanes,   topics::kObeyed,
-    topics::kContact,    topics::kEvent,         topics::kSampleTruth,  topics::kLabels};
+    topics::kActivation, topics::kTrueLandmarks, topics::kFrame,   topics::kTruePose, topics::kIdentities,
+    topics::kPose,       topics::kAssociations,  topics::kMap,     topics::kCommand,  topics::kPlanes,
+    topics::kTruePlanes, topics::kObeyed,        topics::kContact, topics::kEvent,    topics::kSampleTruth,
+    topics::kLabels,     topics::kTopology,      topics::kDrawing};
 
 /// The id of a topic's channel.
 inline std::uint16_t run_channel_id(std::string_view topic) {

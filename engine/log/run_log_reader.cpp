@@ -11,6 +11,7 @@
 #include "log/observations.hpp"
 #include "log/run_log.hpp"
 #include "log/run_log_channels.hpp"
+#include "log/topology_json.hpp"
 
 namespace hallway::log {
 namespace {
@@ -206,6 +207,14 @@ MapAnswer map_answer(const Json& json) {
   return map;
 }
 
+TopologyMessage topology(const Json& json) {
+  return {iteration_of(json), topology_of(json)};
+}
+
+DrawingMessage drawing(const Json& json) {
+  return {iteration_of(json), drawing_of(json.at("items"))};
+}
+
 CommandMessage command(const Json& json) {
   return {static_cast<std::uint32_t>(whole(json.at("iteration"), UINT32_MAX)),
           {json.at("linear_m_s").get<double>(), json.at("angular_rad_s").get<double>(),
@@ -228,6 +237,8 @@ RunMessage parse(std::string_view topic, std::string_view data) {
 AnswerMessage parse_answer(std::string_view topic, std::string_view data) {
   if (topic == topics::kPose) return pose_answer(parse_json(data));
   if (topic == topics::kMap) return map_answer(parse_json(data));
+  if (topic == topics::kTopology) return topology(parse_json(data));
+  if (topic == topics::kDrawing) return drawing(parse_json(data));
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "log/run_log.hpp"
 #include "log/run_log_channels.hpp"
+#include "log/topology_json.hpp"
 
 namespace hallway::log {
 namespace {
@@ -274,6 +275,16 @@ void RunLogWriter::add_map(const FrameStamp& stamp, const MapAnswer& map) {
   json["submaps"] = submaps_json(map);
   for (const IdPair& pair : map.joined_epochs) json["joined_epochs"].push_back({pair.first, pair.second});
   add(topics::kMap, stamp, text_of(json));
+}
+
+void RunLogWriter::add_topology(const FrameStamp& stamp, const Topology& topology) {
+  Json json{{"iteration", stamp.iteration}};
+  add_members(topology, json);
+  add(topics::kTopology, stamp, text_of(json));
+}
+
+void RunLogWriter::add_drawing(const FrameStamp& stamp, const Drawing& drawing) {
+  add(topics::kDrawing, stamp, text_of({{"iteration", stamp.iteration}, {"items", items_json(drawing)}}));
 }
 
 void RunLogWriter::keep() {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "record/plane_observations.hpp"
+#include "record/plugin_topology.hpp"
 #include "record/robot_parts_json.hpp"
 #include "record/sensor_json.hpp"
 #include "record/version.hpp"
@@ -65,11 +66,21 @@ void AnswerRecorder::record_frame(const log::FrameStamp& stamp, std::uint32_t n_
 
 void AnswerRecorder::record_answer(const host::Outputs& outputs) {
   record_pose(outputs);
+  record_topology(outputs);
+  record_drawing(outputs);
   record_the_rest(outputs);
 }
 
 void AnswerRecorder::record_pose(const host::Outputs& outputs) {
   if (outputs.pose()) writer_.add_pose(stamp_, pose_answer(outputs));
+}
+
+void AnswerRecorder::record_topology(const host::Outputs& outputs) {
+  if (outputs.topology() != nullptr) writer_.add_topology(stamp_, copy_topology(*outputs.topology()));
+}
+
+void AnswerRecorder::record_drawing(const host::Outputs& outputs) {
+  if (outputs.drawing() != nullptr) writer_.add_drawing(stamp_, copy_drawing(*outputs.drawing()));
 }
 
 void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {
@@ -87,6 +98,7 @@ void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {
 
 void AnswerRecorder::record_map(const FinalMap& map) {
   writer_.add_map(stamp_, map);
+  if (map.topology) writer_.add_topology(stamp_, *map.topology);
 }
 
 }  // namespace hallway::record

@@ -35,9 +35,11 @@ class AnswerRecorder {
 
   /// A frame as the plugins get it, of `n_samples`, in the form of host/samples/frame_bytes.hpp.
   void record_frame(const log::FrameStamp& stamp, std::uint32_t n_samples, std::string_view bytes);
-  /// What the pipeline answered to the frame that was recorded last: record_pose() and record_the_rest().
+  /// What the pipeline answered to the frame that was recorded last: record_pose(), record_topology(), record_drawing() and record_the_rest().
   void record_answer(const host::Outputs& outputs);
   void record_pose(const host::Outputs& outputs);
+  void record_topology(const host::Outputs& outputs);
+  void record_drawing(const host::Outputs& outputs);
   void record_the_rest(const host::Outputs& outputs);
   /// The map at the end.
   void record_map(const FinalMap& map);

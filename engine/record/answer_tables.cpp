@@ -9,6 +9,7 @@
 #include "log/tum.hpp"
 #include "record/files.hpp"
 #include "record/plane_observations.hpp"
+#include "record/plugin_topology.hpp"
 
 namespace hallway::record {
 
@@ -36,6 +37,7 @@ void AnswerTables::add(const AnsweredFrame& frame, const host::Outputs& outputs,
                     .angular_rad_s = command->angular_rad_s,
                     .lateral_m_s = command->lateral_m_s});
   }
+  if (outputs.topology() != nullptr) topology_ = copy_topology(*outputs.topology());
   for (std::uint32_t k = 0; k < n_samples; ++k) {
     if (const auto planes = outputs.planes(k)) add_planes(iteration, *planes);
   }

@@ -9,6 +9,7 @@
 #include "host/stage.hpp"
 #include "log/command_file.hpp"
 #include "log/row_file.hpp"
+#include "log/topology.hpp"
 #include "log/tum.hpp"
 
 namespace hallway::record {
@@ -31,6 +32,8 @@ class AnswerTables {
 
   /// The answer to a frame; iterations increase.
   void add(const AnsweredFrame& frame, const host::Outputs& outputs, const host::CallTime& time);
+  /// The topology that was put last; nothing if none was.
+  const std::optional<log::Topology>& topology() const { return topology_; }
   /// No more answers come.
   void close();
 
@@ -45,6 +48,7 @@ class AnswerTables {
   std::optional<log::RowFile> pose_times_;
   std::optional<log::CommandFile> commands_;
   std::optional<log::RowFile> planes_;
+  std::optional<log::Topology> topology_;
 };
 
 /// Nanoseconds as the milliseconds of timing.csv.

@@ -35,6 +35,8 @@ inline constexpr const char* kMatches = "matches.csv";
 inline constexpr const char* kMappedPlanes = "mapped_planes.csv";
 inline constexpr const char* kSubmaps = "submaps.csv";
 inline constexpr const char* kSubmapPoses = "submap_poses.csv";
+inline constexpr const char* kTopology = "topology.json";
+inline constexpr const char* kTopologyGraph = "topology.graphml";
 inline constexpr const char* kTiming = "timing.csv";
 
 }  // namespace hallway::record::files

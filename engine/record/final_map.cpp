@@ -3,8 +3,10 @@
 
 #include <array>
 
+#include "base/file.hpp"
 #include "record/files.hpp"
 #include "record/plane_observations.hpp"
+#include "record/plugin_topology.hpp"
 
 namespace hallway::record {
 namespace {
@@ -68,6 +70,7 @@ FinalMap copy_map(const host::Outputs* report) {
   }
   for (const host::JoinedEpoch& joined : report->joined_epochs())
     map.joined_epochs.push_back({joined.epoch, joined.into});
+  if (report->topology() != nullptr) map.topology = copy_topology(*report->topology());
   return map;
 }
 
@@ -77,6 +80,9 @@ void write_map(const std::filesystem::path& folder, const FinalMap& map) {
   log::write_id_pairs(folder / files::kSubmaps, map.submap_members, log::kSubmapColumns);
   if (!map.submaps.empty()) log::write_submap_poses(folder / files::kSubmapPoses, map.submaps);
   if (!map.planes.empty()) log::write_plane_landmarks(folder / files::kMappedPlanes, map.planes);
+  if (!map.topology) return;
+  write_file_atomically(folder / files::kTopology, log::print_topology(*map.topology));
+  write_file_atomically(folder / files::kTopologyGraph, log::print_graphml(*map.topology));
 }
 
 }  // namespace hallway::record

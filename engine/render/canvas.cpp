@@ -30,6 +30,18 @@ double capsule(const Vec2& p, const Vec2& a, const Vec2& b, double radius) {
   return (p - a - t * ab).norm() - radius;
 }
 
+/// Signed distance to the rim of a square around the origin.
+double square_rim(const Vec2& p, double radius) {
+  const double half_line = std::clamp(0.1 * radius, 0.5, 2.0);
+  return std::abs(p.cwiseAbs().maxCoeff() - (0.8 * radius - half_line)) - half_line;
+}
+
+/// Signed distance to a triangle around the origin with a corner at the top, of this inscribed circle; at its corners that to the corner's sides.
+double triangle(const Vec2& p, double inner_radius) {
+  constexpr double kCos30 = 0.86603;
+  return std::max(p.y(), kCos30 * std::abs(p.x()) - 0.5 * p.y()) - inner_radius;
+}
+
 /// Signed distance to a mark around the origin, negative inside.
 double mark_distance(MarkerShape shape, const Vec2& p, double radius) {
   switch (shape) {
@@ -49,6 +61,10 @@ double mark_distance(MarkerShape shape, const Vec2& p, double radius) {
       return (std::abs(p.x()) + std::abs(p.y()) - radius) * 0.70711;
     case MarkerShape::kSquare:
       return std::max(std::abs(p.x()), std::abs(p.y())) - 0.8 * radius;
+    case MarkerShape::kSquareWithCircle:
+      return std::min(square_rim(p, radius), p.norm() - 0.38 * radius);
+    case MarkerShape::kSquareWithTriangle:
+      return std::min(square_rim(p, radius), triangle(p - Vec2(0.0, 0.08 * radius), 0.24 * radius));
   }
   return radius;
 }

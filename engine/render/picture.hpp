@@ -62,7 +62,7 @@ struct Polyline {
   std::string label{};  ///< text in the legend, empty for none
 };
 
-enum class MarkerShape { kDot, kRing, kCross, kDiamond, kSquare };
+enum class MarkerShape { kDot, kRing, kCross, kDiamond, kSquare, kSquareWithCircle, kSquareWithTriangle };
 
 /// The same mark at many places, e.g. landmarks.
 struct Markers {

@@ -42,9 +42,11 @@ constexpr Range kPeriod_s{1e-6, 60.0};
 
 const std::vector<std::string> kViews{"top", "perspective", "panels",
                                       "camera"};  // in the order of PictureView
-const std::vector<std::string> kLayers{"map",     "truth",  "estimate", "landmarks", "errors",   "submaps",
-                                       "frustum", "walls",  "body",     "trail",     "contacts", "command",
-                                       "seen",    "events", "deskewed"};  // in the order of PictureLayer
+const std::
+    vector<std::string>
+        kLayers{"map",     "truth",  "estimate", "landmarks", "errors",   "submaps",
+                "frustum", "walls",  "body",     "trail",     "contacts", "command",
+                "seen",    "events", "deskewed", "topology",  "drawing"};  // in the order of PictureLayer
 
 /// Reads one scenario, table by table.
 class ScenarioReader {

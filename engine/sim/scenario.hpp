@@ -73,7 +73,9 @@ enum class PictureLayer {
   kCommand,
   kSeen,
   kEvents,
-  kDeskewed
+  kDeskewed,
+  kTopology,
+  kDrawing
 };
 
 /// The names of the layers, in the order of PictureLayer.

@@ -283,6 +283,59 @@ AT(hw_mapped_planes_t, reserved, 28);
 AT(hw_mapped_planes_t, n_corners, 32);
 AT(hw_mapped_planes_t, corners, 40);
 
+SIZE(hw_topology_node_t, 48);
+AT(hw_topology_node_t, id, 0);
+AT(hw_topology_node_t, kind, 4);
+AT(hw_topology_node_t, direction, 8);
+AT(hw_topology_node_t, visits, 12);
+AT(hw_topology_node_t, size_m, 16);
+AT(hw_topology_node_t, t_ns, 24);
+AT(hw_topology_node_t, x_m, 32);
+AT(hw_topology_node_t, y_m, 40);
+
+SIZE(hw_topology_edge_t, 32);
+AT(hw_topology_edge_t, from, 0);
+AT(hw_topology_edge_t, to, 4);
+AT(hw_topology_edge_t, length_m, 8);
+AT(hw_topology_edge_t, confidence, 16);
+AT(hw_topology_edge_t, quarter_turns, 24);
+AT(hw_topology_edge_t, reserved, 28);
+
+SIZE(hw_topology_t, 56);
+AT(hw_topology_t, size, 0);
+AT(hw_topology_t, loop, 4);
+AT(hw_topology_t, node_stride, 8);
+AT(hw_topology_t, edge_stride, 12);
+AT(hw_topology_t, n_nodes, 16);
+AT(hw_topology_t, nodes, 24);
+AT(hw_topology_t, n_edges, 32);
+AT(hw_topology_t, edges, 40);
+AT(hw_topology_t, note, 48);
+
+SIZE(hw_drawing_point_t, 16);
+AT(hw_drawing_point_t, x_m, 0);
+AT(hw_drawing_point_t, y_m, 8);
+
+SIZE(hw_drawing_item_t, 48);
+AT(hw_drawing_item_t, kind, 0);
+AT(hw_drawing_item_t, colour, 4);
+AT(hw_drawing_item_t, flags, 8);
+AT(hw_drawing_item_t, reserved, 12);
+AT(hw_drawing_item_t, radius_m, 16);
+AT(hw_drawing_item_t, first_point, 24);
+AT(hw_drawing_item_t, n_points, 32);
+AT(hw_drawing_item_t, text, 40);
+
+SIZE(hw_drawing_t, 48);
+AT(hw_drawing_t, size, 0);
+AT(hw_drawing_t, stride, 4);
+AT(hw_drawing_t, count, 8);
+AT(hw_drawing_t, items, 16);
+AT(hw_drawing_t, point_stride, 24);
+AT(hw_drawing_t, reserved, 28);
+AT(hw_drawing_t, n_points, 32);
+AT(hw_drawing_t, points, 40);
+
 SIZE(hw_counter_t, 16);
 AT(hw_counter_t, name, 0);
 AT(hw_counter_t, value, 8);
@@ -446,7 +499,18 @@ static_assert(HW_SAMPLE_ODOMETRY == 7 && HW_SAMPLE_IMAGE == 8 && HW_SAMPLE_DEPTH
 static_assert(HW_OUTPUT_POSE == 1 && HW_OUTPUT_LANDMARKS == 2 && HW_OUTPUT_ASSOCIATIONS == 3, "outputs");
 static_assert(HW_OUTPUT_SUBMAPS == 4 && HW_OUTPUT_COUNTERS == 5 && HW_OUTPUT_PLANES == 6, "outputs");
 static_assert(HW_OUTPUT_SEGMENTS == 7 && HW_OUTPUT_TOPOLOGY == 8 && HW_OUTPUT_DRIVE_COMMAND == 9, "outputs");
-static_assert(HW_OUTPUT_DRAWING == 10, "outputs");
+static_assert(HW_OUTPUT_DRAWING == 10 && HW_OUTPUT_MAPPED_PLANES == 11, "outputs");
+static_assert(HW_TOPOLOGY_DISCONTINUITY == 1 && HW_TOPOLOGY_SWEEP == 2 && HW_TOPOLOGY_ROOM == 3 &&
+                  HW_TOPOLOGY_HALLWAY_END == 4 && HW_TOPOLOGY_JUNCTION == 5,
+              "places");
+static_assert(HW_LOOP_OPEN == 0 && HW_LOOP_CLOSED == 1 && HW_LOOP_UNCERTAIN == 2, "loops");
+static_assert(HW_DRAWING_POLYLINE == 1 && HW_DRAWING_CIRCLE == 2 && HW_DRAWING_TEXT == 3, "drawings");
+static_assert(HW_COLOUR_PLAIN == 0 && HW_COLOUR_FAINT == 1 && HW_COLOUR_SENSED == 2 &&
+                  HW_COLOUR_FOLLOWED == 3,
+              "colours");
+static_assert(HW_COLOUR_PLANNED == 4 && HW_COLOUR_LANDMARK == 5 && HW_COLOUR_WARNING == 6 &&
+                  HW_COLOUR_HIGHLIGHT == 7,
+              "colours");
 static_assert(HW_POSE_LOST == 0 && HW_POSE_VALID == 1, "pose status");
 static_assert(HW_LANDMARK_TEMPORARY == 0 && HW_LANDMARK_MAPPED == 1 && HW_LANDMARK_DYNAMIC == 2,
               "landmark status");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bytes as an MCAP log. Whatever they are, reading ends, with an Error, with damage or at the end; what was read can be
-// written as a whole log that gives the same; and what a replay takes of it is a sequence of sound frames.
+// written as a whole log that gives the same; what a replay takes of it is a sequence of sound frames; and
+// a topology in it is a sound one.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include "base/error.hpp"
 #include "host/samples/sample_kind.hpp"
 #include "log/mcap_copy.hpp"
+#include "log/run_log.hpp"
 #include "run/sources/recorded_run.hpp"
 
 using hallway::Error;
@@ -47,6 +49,24 @@ void check_frames(run::RecordedRun&& recorded) {
   }
 }
 
+/// What is read as a topology is one that is written, and read back, the same.
+void check_answers(const log_::ByteInput& input) {
+  log_::McapReader reader(input);
+  while (const log_::McapItem* item = reader.next()) {
+    const auto* message = std::get_if<log_::McapMessage>(item);
+    if (message == nullptr) continue;
+    try {
+      const auto answer = log_::parse_answer_message(reader.channels().at(message->channel_id), *message);
+      const auto* read = std::get_if<log_::TopologyMessage>(&answer);
+      if (read == nullptr) continue;
+      if (log_::parse_topology(log_::print_topology(read->topology), "again") != read->topology) std::abort();
+      if (log_::print_graphml(read->topology).empty()) std::abort();
+    } catch (const Error& error) {
+      if (error.code() != hallway::ErrorCode::kBadInput) std::abort();
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -54,6 +74,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     check_copy(input);
   } catch (const Error&) {  // no MCAP file, or a message that is larger than we write
+  }
+  try {
+    check_answers(input);
+  } catch (const Error&) {  // no MCAP file
   }
   try {
     check_frames(run::read_recorded_run(input));

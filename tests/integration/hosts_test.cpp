@@ -25,7 +25,8 @@ using Json = nlohmann::ordered_json;
 /// What plugins answer, as tables; those that a pipeline does not fill are in no folder.
 constexpr const char* kTables[] = {"trajectory.tum", "landmarks.csv",     "landmarks.ply",
                                    "submaps.csv",    "submap_poses.csv",  "commands.csv",
-                                   "planes.csv",     "mapped_planes.csv", "pose_times.csv"};
+                                   "planes.csv",     "mapped_planes.csv", "pose_times.csv",
+                                   "topology.json",  "topology.graphml"};
 
 std::string content(const fs::path& file) {
   return fs::exists(file) ? read_file(file) : "(not there)";
@@ -319,9 +320,10 @@ TEST_P(Hosts, FourThreads) {
   EXPECT_TRUE(content(out("run") / "run.mcap") == content(out("threads") / "run.mcap")) << "the whole log";
 }
 
-/// Every plugin that belongs to the program, one that drives robots of three kinds, and a rig. Each plugin that is added joins.
+/// Every plugin that belongs to the program, one that drives robots of three kinds, one that puts a topology and a drawing, and a rig. Each plugin that is added joins.
 std::vector<std::string> pipelines() {
-  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras, kScans, kSenses, kSideways, kSteered};
+  std::vector<std::string> all{
+      FIXTURES "/drives.so", FIXTURES "/charts.so", kTwoCameras, kScans, kSenses, kSideways, kSteered};
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(PLUGINS, problem)) {
     if (entry.path().extension() == ".so") all.push_back(entry.path().stem());

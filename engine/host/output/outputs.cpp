@@ -102,6 +102,8 @@ void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32
   outputs_.association_ids_.clear();
   outputs_.planes_.clear();
   outputs_.plane_landmarks_.clear();
+  outputs_.has_topology_ = false;
+  outputs_.has_drawing_ = false;
   outputs_.submaps_.clear();
   outputs_.submap_members_.clear();
   outputs_.n_counters_ = 0;
@@ -141,6 +143,10 @@ hw_status_t OutputCollector::copy(const hw_output_t& output) {
       return copy_planes(payload_of<hw_planes_t>(output));
     case HW_OUTPUT_MAPPED_PLANES:
       return copy_mapped_planes(payload_of<hw_mapped_planes_t>(output));
+    case HW_OUTPUT_TOPOLOGY:
+      return copy_topology(payload_of<hw_topology_t>(output));
+    case HW_OUTPUT_DRAWING:
+      return copy_drawing(payload_of<hw_drawing_t>(output));
     case HW_OUTPUT_COUNTERS:
       return copy_counters(payload_of<hw_counters_t>(output));
     default:
@@ -254,6 +260,23 @@ hw_status_t OutputCollector::copy_planes(const hw_planes_t& planes) {
 hw_status_t OutputCollector::copy_mapped_planes(const hw_mapped_planes_t& planes) {
   demand(HW_HAS(&planes, hw_mapped_planes_t, corners), "a payload that is too small");
   outputs_.plane_landmarks_.add(planes);
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_topology(const hw_topology_t& topology) {
+  demand(HW_HAS(&topology, hw_topology_t, note), "a payload that is too small");
+  demand(!outputs_.has_topology_, "a second one in one call");
+  outputs_.topology_.set(topology, frame_);
+  outputs_.has_topology_ = true;
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_drawing(const hw_drawing_t& drawing) {
+  demand(HW_HAS(&drawing, hw_drawing_t, points), "a payload that is too small");
+  demand(frame_ != nullptr, "it belongs to a frame, and this call has none");
+  demand(!outputs_.has_drawing_, "a second one in one call");
+  outputs_.drawing_.set(drawing);
+  outputs_.has_drawing_ = true;
   return HW_OK;
 }
 

@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "host/output/drawing.hpp"
 #include "host/output/plane_landmark_list.hpp"
+#include "host/output/topology.hpp"
 #include "host/samples/plane_lists.hpp"
 
 namespace hallway::host {
@@ -71,6 +73,10 @@ class Outputs {
   std::optional<PlaneList> planes(std::uint32_t sample) const { return planes_.of(sample); }
   /// The planes of the map, ids distinct from each other's and from the landmarks'.
   const PlaneLandmarkList& plane_landmarks() const { return plane_landmarks_; }
+  /// The topological map, null if none was put.
+  const Topology* topology() const { return has_topology_ ? &topology_ : nullptr; }
+  /// What the plugin shows at this frame, null if it put nothing.
+  const Drawing* drawing() const { return has_drawing_ ? &drawing_ : nullptr; }
   /// The submaps, in the order put.
   std::span<const hw_submap_t> submaps() const { return submaps_; }
   /// The landmarks of a submap of this object.
@@ -100,6 +106,10 @@ class Outputs {
   std::vector<std::uint64_t> association_ids_;
   PlaneLists planes_;
   PlaneLandmarkList plane_landmarks_;
+  Topology topology_;
+  bool has_topology_ = false;
+  Drawing drawing_;
+  bool has_drawing_ = false;
   std::vector<hw_submap_t> submaps_;
   std::vector<std::uint64_t> submap_members_;
   std::vector<Counter> counters_;  ///< the first n_counters_ count; the others keep their memory
@@ -130,6 +140,8 @@ class OutputCollector {
   hw_status_t copy_associations(const hw_associations_t& associations);
   hw_status_t copy_planes(const hw_planes_t& planes);
   hw_status_t copy_mapped_planes(const hw_mapped_planes_t& planes);
+  hw_status_t copy_topology(const hw_topology_t& topology);
+  hw_status_t copy_drawing(const hw_drawing_t& drawing);
   hw_status_t copy_submaps(const hw_submaps_t& submaps);
   hw_status_t copy_counters(const hw_counters_t& counters);
   hw_status_t fault(hw_status_t status, std::string text);

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace hallway::host {
 namespace {
@@ -112,6 +114,48 @@ void read_plane_landmarks(AlignedByteReader& reader, OutputCollector& collector)
   if (list.count != 0 || corners.count != 0) put(collector, HW_OUTPUT_MAPPED_PLANES, &planes);
 }
 
+void read_topology(AlignedByteReader& reader, OutputCollector& collector) {
+  const auto topologies = reader.get<std::uint64_t>();
+  if (topologies == 0) return;
+  if (topologies != 1) throw BadBytes{"more than one topology"};
+  auto topology = sized<hw_topology_t>();
+  topology.node_stride = sizeof(hw_topology_node_t);
+  topology.edge_stride = sizeof(hw_topology_edge_t);
+  topology.loop = reader.get<std::uint32_t>();
+  const auto nodes = reader.get_list<hw_topology_node_t>();
+  const auto edges = reader.get_list<hw_topology_edge_t>();
+  const std::string note = reader.get_text();
+  topology.n_nodes = nodes.count;
+  topology.nodes = nodes.first;
+  topology.n_edges = edges.count;
+  topology.edges = edges.first;
+  topology.note = note.c_str();
+  put(collector, HW_OUTPUT_TOPOLOGY, &topology);
+}
+
+/// Its texts are copied before they are checked.
+void read_drawing(AlignedByteReader& reader, OutputCollector& collector) {
+  const auto drawings = reader.get<std::uint64_t>();
+  if (drawings == 0) return;
+  if (drawings != 1) throw BadBytes{"more than one drawing"};
+  auto drawing = sized<hw_drawing_t>();
+  drawing.stride = sizeof(hw_drawing_item_t);
+  drawing.point_stride = sizeof(hw_drawing_point_t);
+  const auto points = reader.get_list<hw_drawing_point_t>();
+  drawing.n_points = points.count;
+  drawing.points = points.first;
+  std::vector<hw_drawing_item_t> items(reader.get_count(sizeof(hw_drawing_item_t)));
+  std::vector<std::string> texts(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    items[i] = reader.get<hw_drawing_item_t>();
+    texts[i] = reader.get_text();
+    items[i].text = texts[i].c_str();
+  }
+  drawing.count = items.size();
+  drawing.items = items.data();
+  put(collector, HW_OUTPUT_DRAWING, &drawing);
+}
+
 void read_submaps(AlignedByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_submap_t>();
   const auto members = reader.get_list<std::uint64_t>();
@@ -164,6 +208,33 @@ void write_planes(AlignedByteWriter& writer, const Outputs& outputs, std::uint32
   }
 }
 
+void write_topology(AlignedByteWriter& writer, const Topology* topology) {
+  writer.put<std::uint64_t>(topology != nullptr ? 1u : 0u);
+  if (topology == nullptr) return;
+  writer.put(topology->loop());
+  writer.put_list(topology->nodes());
+  writer.put_list(topology->edges());
+  writer.put_text(topology->note());
+}
+
+void write_drawing(AlignedByteWriter& writer, const Drawing* drawing) {
+  writer.put<std::uint64_t>(drawing != nullptr ? 1u : 0u);
+  if (drawing == nullptr) return;
+  writer.put_list(drawing->points());
+  writer.put<std::uint64_t>(drawing->items().size());
+  for (const DrawingItem& item : drawing->items()) {
+    hw_drawing_item_t bare{};
+    bare.kind = item.kind;
+    bare.colour = item.colour;
+    bare.flags = item.closed ? HW_DRAWING_CLOSED : 0u;
+    bare.radius_m = item.radius_m;
+    bare.first_point = item.first_point;
+    bare.n_points = item.n_points;
+    writer.put(bare);
+    writer.put_text(item.text);
+  }
+}
+
 }  // namespace
 
 void write_outputs(AlignedByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
@@ -188,6 +259,8 @@ void write_outputs(AlignedByteWriter& writer, const Outputs& outputs, std::uint3
   write_planes(writer, outputs, n_samples);
   writer.put_list(outputs.plane_landmarks().planes());
   writer.put_list(outputs.plane_landmarks().corners());
+  write_topology(writer, outputs.topology());
+  write_drawing(writer, outputs.drawing());
   writer.put_list(outputs.submaps());
   writer.put_list(outputs.all_members());
   writer.put<std::uint64_t>(outputs.counters().size());
@@ -204,6 +277,8 @@ void read_outputs(AlignedByteReader& reader, OutputCollector& collector) {
   read_associations(reader, collector);
   read_planes(reader, collector);
   read_plane_landmarks(reader, collector);
+  read_topology(reader, collector);
+  read_drawing(reader, collector);
   read_submaps(reader, collector);
   read_counters(reader, collector);
 }

@@ -101,6 +101,8 @@ class Shower {
   void operator()(const std::vector<log::TruePlane>&) {}  // no view shows them
   void operator()(const log::PoseMessage& message) { view_.add_pose(stamp_, message.pose); }
   void operator()(const log::MapAnswer& map) { view_.add_map(stamp_, map); }
+  void operator()(const log::TopologyMessage& message) { view_.add_topology(stamp_, message.topology); }
+  void operator()(const log::DrawingMessage& message) { view_.add_drawing(stamp_, message.drawing); }
   void operator()(const log::ObeyedCommand& command) { view_.add_obeyed(stamp_, command); }
   void operator()(const log::ContactMessage& message) { view_.add_contact(stamp_, message.contact); }
   void operator()(const log::EventMessage& message) { view_.add_event(message.event); }

@@ -6,6 +6,7 @@
 
 #include "geom/arrays.hpp"
 #include "host/samples/sample_kind.hpp"
+#include "record/plugin_topology.hpp"
 
 namespace hallway::run {
 LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
@@ -69,6 +70,12 @@ void LogRecorder::keep() {
 void LogRecorder::record_answer(const host::Outputs& outputs) {
   recorder_.record_pose(outputs);  // what is shown of a message follows it, as in a log that is copied
   if (view_ && outputs.pose()) view_->add_pose(recorder_.stamp(), record::pose_answer(outputs));
+  recorder_.record_topology(outputs);
+  if (view_ && outputs.topology() != nullptr)
+    view_->add_topology(recorder_.stamp(), record::copy_topology(*outputs.topology()));
+  recorder_.record_drawing(outputs);
+  if (view_ && outputs.drawing() != nullptr)
+    view_->add_drawing(recorder_.stamp(), record::copy_drawing(*outputs.drawing()));
   recorder_.record_the_rest(outputs);
 }
 
@@ -88,8 +95,12 @@ void LogRecorder::record_event(const log::EventRow& event) {
 }
 
 void LogRecorder::record_map(const record::FinalMap& map) {
-  recorder_.record_map(map);
-  if (view_) view_->add_map(recorder_.stamp(), map);
+  log::RunLogWriter& writer = recorder_.writer();  // as in a log that is copied, again
+  writer.add_map(stamp(), map);
+  if (view_) view_->add_map(stamp(), map);
+  if (!map.topology) return;
+  writer.add_topology(stamp(), *map.topology);
+  if (view_) view_->add_topology(stamp(), *map.topology);
 }
 
 void LogRecorder::finish() {

@@ -18,6 +18,7 @@
 #include "record/final_map.hpp"
 #include "record/manifest.hpp"
 #include "record/output_folder.hpp"
+#include "record/plugin_topology.hpp"
 #include "record/sensor_json.hpp"
 #include "render/renderer.hpp"
 #include "run/feed/drive_record.hpp"
@@ -277,8 +278,9 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const record::FinalMap online = record::copy_map(online_outputs);
   const std::vector<eval::JoinedEpoch> joined = joined_epochs_of(online_outputs, epochs.first());
   const host::Outputs* refined_outputs = feed.report(true);
-  const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
+  record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
   if (has_plugins) recorder.record_map(refined);
+  if (!refined.topology) refined.topology = tables.topology();
   tables.close();
   epochs.write(folder, online.joined_epochs);
   found.close();
@@ -303,6 +305,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   record::write_json(folder / files::kMetrics, metrics);
   if (commands.compared() > 0) result.commands = commands;
   nlohmann::ordered_json manifest = complete_manifest(plan, source, result, feed.done());
+  if (refined.topology) manifest["topology"] = record::describe_topology(*refined.topology);
   record::write_json(folder / files::kRun, manifest);
   const bool shows_pictures = plan.foxglove != nullptr;
   if (!shows_pictures) recorder.finish();  // a whole log is read by its index

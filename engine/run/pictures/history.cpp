@@ -21,6 +21,7 @@
 #include "log/poses.hpp"
 #include "log/run_log.hpp"
 #include "run/feed/observation_tables.hpp"
+#include "run/pictures/log_part.hpp"
 #include "run/pictures/record.hpp"
 #include "run/sources/abi_pose.hpp"
 
@@ -137,6 +138,17 @@ void read_log(const Record& record, std::vector<SeenSample>& seen) {
   }
 }
 
+std::vector<log::TopologyMessage> read_topologies(const Record& record) {
+  std::vector<log::TopologyMessage> topologies;
+  const fs::path file = record.folder / files::kLog;
+  if (!fs::exists(file)) return topologies;
+  read_topic(
+      file, log::topics::kTopology, [&](const log::McapChannel& channel, const log::McapMessage& message) {
+        topologies.push_back(std::get<log::TopologyMessage>(log::parse_answer_message(channel, message)));
+      });
+  return topologies;
+}
+
 }  // namespace
 
 void read_history(Record& record) {
@@ -145,6 +157,7 @@ void read_history(Record& record) {
   const fs::path obeyed = record.folder / files::kObeyedCommands;
   if (fs::exists(obeyed)) history.obeyed = log::read_obeyed_commands(obeyed);
   if (!read_tables(record, history.seen)) read_log(record, history.seen);
+  history.topologies = read_topologies(record);
   record.history = std::move(history);
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/se3.hpp"
 #include "log/drive_tables.hpp"
+#include "log/run_log.hpp"
 
 namespace hallway::run {
 
@@ -25,9 +26,10 @@ struct History {
   std::vector<std::uint32_t> iterations{};   ///< of the poses of Record::truth, increasing
   std::vector<log::ObeyedCommand> obeyed{};  ///< iterations increase; empty where no drive moved the robot
   std::vector<SeenSample> seen{};            ///< iterations do not decrease
+  std::vector<log::TopologyMessage> topologies{};  ///< as they were put; iterations do not decrease
 };
 
-/// Reads Record::history: from the tables of observations or, where there are none, from the log. Throws Error{kBadInput} where the folder has no
+/// Reads Record::history: from the tables of observations or, where there are none, from the log; topologies from the log. Throws Error{kBadInput} where the folder has no
 /// true poses or a file is wrong, Error{kIo}.
 void read_history(Record& record);
 

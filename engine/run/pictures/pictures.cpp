@@ -20,6 +20,7 @@
 #include "run/pictures/plane_layers.hpp"
 #include "run/pictures/robot_things.hpp"
 #include "run/pictures/scan_layers.hpp"
+#include "run/pictures/topology_layers.hpp"
 
 namespace hallway::run {
 namespace {
@@ -154,6 +155,9 @@ std::string subtitle_of(const Record& record) {
   if (landmarks.empty() && mapped.is_number() && mapped.get<std::uint64_t>() > 0)
     text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
   add_error(", landmark RMSE ", value_at(metrics, {"landmark_rmse_m", "final_aligned"}), "{:.4f}");
+  if (record.topology)
+    text += fmt::format(", topology of {} nodes, loop {}", record.topology->nodes.size(),
+                        log::loop_state_name(record.topology->loop));
   return text + walls_text(metrics);
 }
 
@@ -195,10 +199,14 @@ void add_instant(render::Picture& picture, const Record& record, const sim::Pict
     for (const Json& sensor : sensors_of(record)) add_frustum(picture, record, sensor, Pose(), now);
     add_sectors(picture, scans, reach_m);
   }
-  add_paths(picture, record, spec, path_place(record), now);
+  const Pose T_world_path = path_place(record);
+  add_paths(picture, record, spec, T_world_path, now);
   if (spec.shows(kSeen)) add_seen(picture, record, now);
   if (spec.shows(kSeen) || deskews)
     add_scans(picture, scans, deskews ? ScanPlacement::kDeskewed : ScanPlacement::kAsMeasured, reach_m);
+  if (const log::Topology* topology = spec.shows(kTopology) ? topology_at(record, now) : nullptr)
+    add_topology(picture, record, *topology, T_world_path);
+  if (spec.shows(kDrawing)) add_drawing(picture, record, now);
   if (spec.shows(kCommand) && !from_robot) add_command(picture, record, now);
   if (spec.shows(kBody) && !from_robot) add_body(picture, record, now);
   if (spec.shows(kContacts)) add_contacts(picture, record, now);
@@ -308,6 +316,8 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
   }
   add_landmarks(picture, record, spec, T_world_map, error_scale);
   add_paths(picture, record, spec, T_world_path);
+  if (record.topology && spec.shows(sim::PictureLayer::kTopology))
+    add_topology(picture, record, *record.topology, T_world_path);
   if (spec.shows(sim::PictureLayer::kContacts)) add_contacts(picture, record, std::nullopt);
   if (spec.shows(sim::PictureLayer::kEvents)) add_events(picture, record, std::nullopt);
   cut_to(frame_of(record, picture.surfaces), picture);

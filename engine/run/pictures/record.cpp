@@ -112,6 +112,9 @@ Record read_record(const fs::path& folder) {
   record.true_planes = read_if_there(folder / files::kTruePlanes, log::read_true_planes);
   record.planes = read_if_there(folder / files::kMappedPlanes, log::read_plane_landmarks);
   record.submap_poses = read_if_there(folder / files::kSubmapPoses, log::read_submap_poses);
+  record.topology = read_if_there(folder / files::kTopology, [](const fs::path& path) {
+    return std::optional<log::Topology>(log::read_topology(path));
+  });
   record.contacts = read_if_there(folder / files::kContacts, log::read_contacts);
   record.events = read_if_there(folder / files::kEvents, log::read_events);
   record.matches = read_if_there(folder / files::kMatches, [](const fs::path& path) {

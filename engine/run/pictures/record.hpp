@@ -14,6 +14,7 @@
 #include "log/map_landmarks.hpp"
 #include "log/plane_landmarks.hpp"
 #include "log/submap_poses.hpp"
+#include "log/topology.hpp"
 #include "log/true_planes.hpp"
 #include "log/tum.hpp"
 #include "record/files.hpp"
@@ -44,6 +45,7 @@ struct Record {
   std::vector<log::SubmapPose> submap_poses;  ///< T_map_submap
   std::vector<log::ContactRow> contacts;      ///< of the body, in the order of time
   std::vector<log::EventRow> events;          ///< of the scenario, in the order of time
+  std::optional<log::Topology> topology;      ///< of the end
   std::optional<History> history;             ///< where read_history() was called
 };
 

@@ -14,10 +14,8 @@
 #include "base/error.hpp"
 #include "geom/arrays.hpp"
 #include "host/samples/frame_bytes.hpp"
-#include "log/mcap_index.hpp"
-#include "log/mcap_reader.hpp"
 #include "log/run_log.hpp"
-#include "log/unfinished_input.hpp"
+#include "run/pictures/log_part.hpp"
 
 namespace hallway::run {
 namespace {
@@ -32,42 +30,6 @@ constexpr std::int64_t kBefore_ns = 3'000'000'000;
 bool has_lidar(const Record& record) {
   const Json sensors = sensors_of(record);
   return std::ranges::any_of(sensors, [](const Json& one) { return one.value("kind", "") == "range_scan"; });
-}
-
-using Sink = std::function<void(const log::McapChannel&, const log::McapMessage&)>;
-
-/// Gives the messages from one log time to another, of a log with an index.
-void read_part(const log::ByteInput& input, const log::McapIndex& index, std::int64_t from_ns,
-               std::int64_t to_ns, const Sink& sink) {
-  for (const log::McapChunkIndex& chunk : index.chunks) {
-    if (std::cmp_less(chunk.end_time_ns, from_ns) || std::cmp_greater(chunk.start_time_ns, to_ns)) continue;
-    log::read_indexed_chunk(input, chunk, [&](const log::McapMessage& message) {
-      if (std::cmp_less(message.log_time_ns, from_ns) || std::cmp_greater(message.log_time_ns, to_ns)) return;
-      if (const auto channel = index.channels.find(message.channel_id); channel != index.channels.end())
-        sink(channel->second, message);
-    });
-  }
-}
-
-std::optional<log::McapIndex> index_of(const log::ByteInput& input) {
-  try {
-    return log::read_mcap_index(input);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::kBadInput) throw;
-    return std::nullopt;
-  }
-}
-
-void read_messages(const fs::path& file, std::int64_t from_ns, std::int64_t to_ns, const Sink& sink) {
-  const log::UnfinishedInput input(file);
-  if (const auto index = index_of(input)) return read_part(input, *index, from_ns, to_ns, sink);
-  log::McapReader reader(input);
-  while (const log::McapItem* item = reader.next()) {
-    const auto* message = std::get_if<log::McapMessage>(item);
-    if (message == nullptr || std::cmp_less(message->log_time_ns, from_ns)) continue;
-    if (std::cmp_greater(message->log_time_ns, to_ns)) break;
-    sink(reader.channels().at(message->channel_id), *message);
-  }
 }
 
 std::vector<ScanRay> rays_of(const hw_range_scan_t& scan) {

@@ -14,6 +14,7 @@
 
 #include "body.h"
 #include "bump.h"
+#include "drawing.h"
 #include "drive.h"
 #include "driver.h"
 #include "encoder.h"
@@ -36,4 +37,5 @@
 #include "robot.h"
 #include "sample.h"
 #include "status.h"
+#include "topology.h"
 #include "version.h"

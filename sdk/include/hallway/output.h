@@ -3,10 +3,12 @@
 
 #include <stdint.h>
 
+#include "drawing.h"
 #include "growth.h"
 #include "mapped_planes.h"
 #include "planes.h"
 #include "pose.h"
+#include "topology.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -22,9 +24,9 @@ enum {
   HW_OUTPUT_COUNTERS = 5,       ///< hw_counters_t; several in a call are one list
   HW_OUTPUT_PLANES = 6,         ///< hw_planes_t; at most one for a sample, in process() only; since 1.1
   HW_OUTPUT_SEGMENTS = 7,       ///< reserved
-  HW_OUTPUT_TOPOLOGY = 8,       ///< reserved
+  HW_OUTPUT_TOPOLOGY = 8,       ///< hw_topology_t; at most one in a call; since 1.6
   HW_OUTPUT_DRIVE_COMMAND = 9,  ///< hw_drive_command_t; at most one in a call, in process() only
-  HW_OUTPUT_DRAWING = 10,       ///< reserved
+  HW_OUTPUT_DRAWING = 10,       ///< hw_drawing_t; at most one in a call, in process() only; since 1.6
   HW_OUTPUT_MAPPED_PLANES = 11  ///< hw_mapped_planes_t; several in a call are one list; since 1.3
 };
 

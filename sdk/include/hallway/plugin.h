@@ -31,7 +31,7 @@ typedef struct hw_plugin_vtable_t {
   /// Takes one frame and puts the answers to it (pose, associations, counters) through the host. Only called
   /// while active. After a failure the host makes no call but deactivate() and destroy(). [loop]
   hw_status_t (*process)(void* self, const hw_frame_t* frame, hw_error_t* error);
-  /// Puts the map (landmarks, mapped planes, submaps) through the host. Only called while active. [loop]
+  /// Puts the map (landmarks, mapped planes, submaps, topology) through the host. Only called while active. [loop]
   hw_status_t (*report)(void* self, const hw_report_request_t* request, hw_error_t* error);
   /// The plugin's extension of that id (e.g. HW_EXT_PARAMS), or null; lives as long as the plugin. [main]
   const void* (*get_extension)(void* self, const char* id);

@@ -71,6 +71,55 @@ hw_status_t guard(hw_error_t* error, Work&& work) noexcept {
   }
 }
 
+/// Lines, circles and texts in the body's frame, for Host::put_drawing(). `colour` is HW_COLOUR_…; metres. clear() keeps the memory.
+class Drawing {
+ public:
+  void clear() {
+    items_.clear();
+    points_.clear();
+    texts_.clear();
+  }
+  /// Joins two points or more.
+  void add_polyline(std::uint32_t colour, const std::vector<hw_drawing_point_t>& points,
+                    bool closed = false) {
+    hw_drawing_item_t& item = add(HW_DRAWING_POLYLINE, colour, points.size());
+    if (closed) item.flags = HW_DRAWING_CLOSED;
+    points_.insert(points_.end(), points.begin(), points.end());
+  }
+  /// @param radius_m  above 0
+  void add_circle(std::uint32_t colour, double x_m, double y_m, double radius_m) {
+    add(HW_DRAWING_CIRCLE, colour, 1).radius_m = radius_m;
+    points_.push_back({x_m, y_m});
+  }
+  /// @param text  UTF-8, not empty
+  void add_text(std::uint32_t colour, double x_m, double y_m, const std::string& text) {
+    add(HW_DRAWING_TEXT, colour, 1);
+    points_.push_back({x_m, y_m});
+    texts_.emplace_back(items_.size() - 1, text);
+  }
+
+  /// Its items in the C form; valid until the next change.
+  const std::vector<hw_drawing_item_t>& items() {
+    for (const auto& [item, text] : texts_) items_[item].text = text.c_str();
+    return items_;
+  }
+  const std::vector<hw_drawing_point_t>& points() const { return points_; }
+
+ private:
+  hw_drawing_item_t& add(std::uint32_t kind, std::uint32_t colour, std::size_t n_points) {
+    hw_drawing_item_t& item = items_.emplace_back();
+    item.kind = kind;
+    item.colour = colour;
+    item.first_point = points_.size();
+    item.n_points = n_points;
+    return item;
+  }
+
+  std::vector<hw_drawing_item_t> items_;
+  std::vector<hw_drawing_point_t> points_;
+  std::vector<std::pair<std::size_t, std::string>> texts_;  ///< number of the item, its text
+};
+
 /// The host, seen from the plugin. The put functions throw Failure if the host refuses; use them in process()
 /// and report().
 class Host {
@@ -170,6 +219,35 @@ class Host {
     payload.angular_rad_s = angular_rad_s;
     payload.lateral_m_s = lateral_m_s;
     put(HW_OUTPUT_DRIVE_COMMAND, payload);
+  }
+
+  /// Answers the whole topological map as it is now. `loop` is HW_LOOP_…. @param note  why the loop is so; UTF-8
+  void put_topology(const std::vector<hw_topology_node_t>& nodes,
+                    const std::vector<hw_topology_edge_t>& edges, std::uint32_t loop = HW_LOOP_OPEN,
+                    const std::string& note = {}) const {
+    hw_topology_t payload{};
+    payload.loop = loop;
+    payload.node_stride = sizeof(hw_topology_node_t);
+    payload.edge_stride = sizeof(hw_topology_edge_t);
+    payload.n_nodes = nodes.size();
+    payload.nodes = nodes.data();
+    payload.n_edges = edges.size();
+    payload.edges = edges.data();
+    payload.note = note.c_str();
+    put(HW_OUTPUT_TOPOLOGY, payload);
+  }
+
+  /// Answers what to show at this frame, in process().
+  void put_drawing(Drawing& drawing) const {
+    const std::vector<hw_drawing_item_t>& items = drawing.items();
+    hw_drawing_t payload{};
+    payload.stride = sizeof(hw_drawing_item_t);
+    payload.count = items.size();
+    payload.items = items.data();
+    payload.point_stride = sizeof(hw_drawing_point_t);
+    payload.n_points = drawing.points().size();
+    payload.points = drawing.points().data();
+    put(HW_OUTPUT_DRAWING, payload);
   }
 
   /// Answers numbers worth watching.

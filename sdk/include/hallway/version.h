@@ -11,7 +11,7 @@
 /// are equal; within one major number everything grows by the rules of growth.h, so that any minor number
 /// works with any other.
 #define HW_ABI_MAJOR 1u
-#define HW_ABI_MINOR 5u
+#define HW_ABI_MINOR 6u
 
 /// Version of the ABI that something was compiled against. Frozen.
 typedef struct hw_version_t {

@@ -28,7 +28,7 @@ def main() -> None:
     for needed in ("hw_sample_t", "hw_sensor_info_t", "hw_output_t", "hw_error_t", "hw_host_t", "hw_param_info_t",
                    "hw_activation_t", "hw_drive_info_t", "hw_body_info_t", "hw_encoder_info_t", "hw_bump_info_t",
                    "hw_range_scan_t", "hw_range_scan_info_t", "hw_odometry_t", "hw_imu_t", "hw_imu_info_t",
-                   "hw_gnss_t", "hw_gnss_info_t", "hw_magnetic_t"):
+                   "hw_gnss_t", "hw_gnss_info_t", "hw_magnetic_t", "hw_topology_t", "hw_drawing_t"):
         if needed not in grown:
             sys.exit(f"{needed} has not grown: is its first member still `uint32_t size;`?")
 

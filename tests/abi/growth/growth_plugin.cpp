@@ -2,6 +2,7 @@
 //
 // Tells through counters what it read of every struct that may grow. Built against today's headers and against grown ones.
 
+#include <cmath>
 #include <hallway/plugin.hpp>
 #include <vector>
 
@@ -96,6 +97,9 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
 #else
     host().put_drive_command(0.5, -x_sum);
 #endif
+#if HW_ABI_MINOR >= 6
+    put_topology(frame.t_ns);
+#endif
     const hw_counter_t counters[] = {
         {"sensor_sum", sensor_sum_},
         {"last_noise", last_noise_},
@@ -172,6 +176,23 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
       way_ = odometry->T_odom_sensor.position[0] + odometry->covariance[20];
       payloads_have_grown_ += has_grown(odometry);
     }
+  }
+#endif
+#if HW_ABI_MINOR >= 6
+  void put_topology(std::int64_t t_ns) const {
+    hw_topology_node_t room{};
+    room.id = 4;
+    room.kind = HW_TOPOLOGY_ROOM;
+    room.size_m = std::nan("");
+    room.t_ns = t_ns;
+    hw_topology_edge_t edge{};
+    edge.from = edge.to = 4;
+    edge.length_m = 2.5;
+    host().put_topology({room}, {edge}, HW_LOOP_CLOSED, "it came back");
+    hallway::sdk::Drawing drawing;
+    drawing.add_text(HW_COLOUR_WARNING, 1, 2, "here");
+    drawing.add_circle(HW_COLOUR_SENSED, 3, 4, 0.5);
+    host().put_drawing(drawing);
   }
 #endif
 #if HW_ABI_MINOR >= 1

@@ -154,6 +154,27 @@ TEST_P(Growth, PlanesArriveWhereTheyAreKnown) {
   EXPECT_EQ(planes->members_of(planes->planes[0]).size(), 1u);
 }
 
+TEST_P(Growth, TopologyAndDrawingArriveWhereTheyAreKnown) {
+  plugin_.activate(three_sensors());
+  const Outputs& outputs = process_three_samples();
+  ASSERT_EQ(outputs.topology() != nullptr, GetParam().is_later);
+  ASSERT_EQ(outputs.drawing() != nullptr, GetParam().is_later);
+  if (outputs.topology() == nullptr) return;
+  const Topology& topology = *outputs.topology();
+  ASSERT_EQ(topology.nodes().size(), 1u);
+  EXPECT_EQ(topology.nodes()[0].id, 4u);
+  EXPECT_EQ(topology.nodes()[0].t_ns, 1000);
+  ASSERT_EQ(topology.edges().size(), 1u);
+  EXPECT_EQ(topology.edges()[0].length_m, 2.5);
+  EXPECT_EQ(topology.loop(), HW_LOOP_CLOSED);
+  EXPECT_EQ(topology.note(), "it came back");
+  const Drawing& drawing = *outputs.drawing();
+  ASSERT_EQ(drawing.items().size(), 2u);
+  EXPECT_EQ(drawing.items()[0].text, "here");
+  EXPECT_EQ(drawing.points_of(drawing.items()[1])[0].y_m, 4);
+  EXPECT_EQ(drawing.items()[1].radius_m, 0.5);
+}
+
 TEST_P(Growth, TheMapArrives) {
   plugin_.activate(three_sensors());
   const Outputs& map = plugin_.report(true);

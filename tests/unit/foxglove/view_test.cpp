@@ -170,6 +170,48 @@ TEST(FoxgloveView, WithoutAnswersTheBodyIsWhereItTrulyIs) {
   EXPECT_EQ(transform.child_frame_id(), "body");
 }
 
+TEST(FoxgloveView, PlacesOfATopologyAreWhereTheBodyTrulyWas) {
+  ViewLog log;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    log.add_frame(i);
+    log.add_truth(i, {Quat::Identity(), Vec3(i, 0, 0)});
+  }
+  const log::TopologyNode place{
+      .id = 8, .kind = log::PlaceKind::kRoom, .t_ns = ViewLog::time_ns(2), .x_m = 0.5, .y_m = -0.25};
+  log::TopologyNode early = place;
+  early.id = 9;
+  early.t_ns = ViewLog::time_ns(0) - 1;
+  log.view().add_topology(ViewLog::stamp(3), {.nodes = {place, early}});
+  log.view().add_drawing(ViewLog::stamp(3), {{.points_m = {{0, 0}, {1, 0}}}});
+  const auto topics = log.messages();
+  const auto topology = topics.at("/foxglove/topology").at(0).as<::foxglove::SceneUpdate>();
+  ASSERT_EQ(topology.entities_size(), 1);
+  EXPECT_EQ(topology.entities(0).frame_id(), "world");
+  ASSERT_EQ(topology.entities(0).texts_size(), 1) << "nothing is known of the time before the first pose";
+  EXPECT_EQ(topology.entities(0).texts(0).text(), "8");
+  EXPECT_EQ(topology.entities(0).texts(0).pose().position().x(), 2.5);
+  EXPECT_EQ(topology.entities(0).texts(0).pose().position().y(), -0.25);
+  const auto drawing = topics.at("/foxglove/drawing").at(0).as<::foxglove::SceneUpdate>();
+  EXPECT_EQ(drawing.entities(0).frame_id(), "body_truth");
+  EXPECT_EQ(drawing.entities(0).lines(0).points_size(), 2);
+}
+
+TEST(FoxgloveView, WithoutTruthATopologyIsInTheMap) {
+  ViewLog log;
+  log.add_frame(0);
+  log.add_pose(0, {Quat::Identity(), Vec3(0, 7, 0)});
+  log.view().add_topology(
+      ViewLog::stamp(0),
+      {.nodes = {{.id = 8, .kind = log::PlaceKind::kSweep, .t_ns = ViewLog::time_ns(0), .x_m = 1}}});
+  log.view().add_drawing(ViewLog::stamp(0), {});
+  const auto topics = log.messages();
+  const auto topology = topics.at("/foxglove/topology").at(0).as<::foxglove::SceneUpdate>();
+  EXPECT_EQ(topology.entities(0).frame_id(), "map");
+  EXPECT_EQ(topology.entities(0).texts(0).pose().position().y(), 7);
+  EXPECT_EQ(topics.at("/foxglove/drawing").at(0).as<::foxglove::SceneUpdate>().entities(0).frame_id(),
+            "body");
+}
+
 TEST(FoxgloveView, EachSensorHasItsPlaceOnTheBody) {
   ViewLog log;
   host::SensorInfo left;

@@ -115,6 +115,41 @@ TEST(IsolatedPlugin, APoseMayBeOfAnEarlierTimeThanItsFrame) {
   }
 }
 
+TEST(IsolatedPlugin, TopologyAndDrawingAreTheSameAsInThisProcess) {
+  const std::string charts = kFixtures + "/charts.so";
+  const auto here = in_process(charts), there = isolated(charts);
+  for (Stage* stage : {here.get(), there.get()}) stage->activate(point_sensors());
+  const auto expect_same_places = [](const Outputs& a, const Outputs& b) {
+    ASSERT_EQ(a.topology() != nullptr, b.topology() != nullptr);
+    if (a.topology() == nullptr) return;
+    EXPECT_TRUE(same_bytes(a.topology()->nodes(), b.topology()->nodes()));
+    EXPECT_TRUE(same_bytes(a.topology()->edges(), b.topology()->edges()));
+    EXPECT_EQ(a.topology()->loop(), b.topology()->loop());
+    EXPECT_EQ(a.topology()->note(), b.topology()->note());
+  };
+  FrameBuilder builder;
+  std::size_t topologies = 0;
+  for (std::uint64_t step = 0; step < 25; ++step) {
+    const hw_frame_t& frame = frame_of(builder, step, seen_at(step));
+    const Outputs& a = here->process(frame);
+    const Outputs& b = there->process(frame);
+    expect_same_places(a, b);
+    topologies += a.topology() != nullptr ? 1u : 0u;
+    ASSERT_TRUE(a.drawing() && b.drawing());
+    EXPECT_TRUE(same_bytes(a.drawing()->points(), b.drawing()->points()));
+    ASSERT_EQ(b.drawing()->items().size(), 4u);
+    EXPECT_EQ(b.drawing()->items()[3].text, "frame " + std::to_string(step));
+    EXPECT_TRUE(b.drawing()->items()[1].closed);
+  }
+  EXPECT_EQ(topologies, 3u);
+  const Outputs& a = here->report(true);
+  const Outputs& b = there->report(true);
+  expect_same_places(a, b);
+  ASSERT_TRUE(b.topology());
+  EXPECT_EQ(b.topology()->loop(), HW_LOOP_CLOSED);
+  EXPECT_EQ(b.topology()->nodes().size(), 3u);
+}
+
 TEST(IsolatedPlugin, TakesManyFramesBeforeItAnswers) {
   const auto here = in_process(kSlamPoint);
   const auto there = isolated(kSlamPoint);

@@ -65,6 +65,28 @@ void put_everything(OutputCollector& collector, std::int64_t frame_t_ns) {
   const hw_submap_t parts[]{{1, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 2}, {2, {{0, 0, 1}, {0, 0, 0, 1}}, 2, 1}};
   hw_submaps_t submaps{sizeof submaps, sizeof(hw_submap_t), 2, parts, 3, members};
   put(collector, HW_OUTPUT_SUBMAPS, &submaps);
+  const double none = std::nan("");
+  const hw_topology_node_t places[]{{5, HW_TOPOLOGY_DISCONTINUITY, -1, 3, 0.25, frame_t_ns, 0.5, -0.6},
+                                    {6, HW_TOPOLOGY_ROOM, 0, 1, none, 0, 1, 2}};
+  const hw_topology_edge_t ways[]{{5, 6, 2.5, 0.75, -1, 0}};
+  const hw_topology_t topology{sizeof topology,
+                               HW_LOOP_UNCERTAIN,
+                               sizeof(hw_topology_node_t),
+                               sizeof(hw_topology_edge_t),
+                               2,
+                               places,
+                               1,
+                               ways,
+                               "read alike"};
+  put(collector, HW_OUTPUT_TOPOLOGY, &topology);
+  const hw_drawing_point_t drawn[]{{0, 1}, {2, 3}, {4, 5}};
+  const hw_drawing_item_t items[]{
+      {HW_DRAWING_POLYLINE, HW_COLOUR_FOLLOWED, HW_DRAWING_CLOSED, 0, 0, 0, 3, nullptr},
+      {HW_DRAWING_CIRCLE, HW_COLOUR_SENSED, 0, 0, 0.5, 2, 1, nullptr},
+      {HW_DRAWING_TEXT, HW_COLOUR_WARNING, 0, 0, 0, 1, 1, "a text of some length"}};
+  const hw_drawing_t drawing{
+      sizeof drawing, sizeof(hw_drawing_item_t), 3, items, sizeof(hw_drawing_point_t), 0, 3, drawn};
+  put(collector, HW_OUTPUT_DRAWING, &drawing);
   const hw_counter_t numbers[]{{"a", 1.5}, {"a_long_name_of_a_counter", -2}};
   hw_counters_t counters{sizeof counters, sizeof(hw_counter_t), 2, numbers};
   put(collector, HW_OUTPUT_COUNTERS, &counters);
@@ -132,6 +154,19 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   ASSERT_EQ(outputs.submaps().size(), 2u);
   EXPECT_TRUE(std::ranges::equal(outputs.members(outputs.submaps()[1]), std::vector<std::uint64_t>{7}));
   EXPECT_EQ(outputs.counters()[1].name, "a_long_name_of_a_counter");
+  ASSERT_TRUE(outputs.topology());
+  ASSERT_EQ(outputs.topology()->nodes().size(), 2u);
+  EXPECT_EQ(outputs.topology()->nodes()[0].t_ns, frame_.t_ns);
+  EXPECT_TRUE(std::isnan(outputs.topology()->nodes()[1].size_m));
+  ASSERT_EQ(outputs.topology()->edges().size(), 1u);
+  EXPECT_EQ(outputs.topology()->edges()[0].confidence, 0.75);
+  EXPECT_EQ(outputs.topology()->loop(), HW_LOOP_UNCERTAIN);
+  EXPECT_EQ(outputs.topology()->note(), "read alike");
+  ASSERT_TRUE(outputs.drawing());
+  ASSERT_EQ(outputs.drawing()->items().size(), 3u);
+  EXPECT_TRUE(outputs.drawing()->items()[0].closed);
+  EXPECT_EQ(outputs.drawing()->points_of(outputs.drawing()->items()[1])[0].x_m, 4);
+  EXPECT_EQ(outputs.drawing()->items()[2].text, "a text of some length");
   // And written again they are the same bytes.
   std::vector<std::uint64_t> again(room_.size());
   AlignedByteWriter writer(std::as_writable_bytes(std::span(again)));
@@ -174,6 +209,15 @@ TEST_F(OutputsBytes, ChangedAnywhereTheyDoNoHarm) {
     for (const hw_mapped_plane_t& plane : mapped.planes()) {
       EXPECT_TRUE(std::isfinite(plane.offset_m));
       EXPECT_GE(mapped.outline(plane).size(), 3u);
+    }
+    if (const Topology* topology = reader_.outputs().topology()) {
+      for (const hw_topology_edge_t& edge : topology->edges()) {
+        EXPECT_EQ(std::ranges::count(topology->nodes(), edge.to, &hw_topology_node_t::id), 1);
+        EXPECT_TRUE(edge.confidence >= 0 && edge.confidence <= 1);
+      }
+    }
+    if (const Drawing* drawing = reader_.outputs().drawing()) {
+      for (const DrawingItem& item : drawing->items()) EXPECT_LE(drawing->points_of(item).size(), 3u);
     }
     for (const hw_submap_t& submap : reader_.outputs().submaps()) {
       EXPECT_LE(reader_.outputs().members(submap).size(), 3u);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 
 #include "base/file.hpp"
 #include "host/samples/frame_builder.hpp"
@@ -41,6 +42,36 @@ TEST(AnswerTables, TimesOfPosesStandInATableThatIsThereForThem) {
     EXPECT_EQ(std::filesystem::exists(file) ? read_file(file) : "",
               told ? "iteration,t_ns\n4,170\n5,9223372036854775807\n" : "");
   }
+}
+
+TEST(AnswerTables, TheTopologyThatWasPutLastIsKept) {
+  const test::TempFolder folder;
+  AnswerTables tables(folder.path());
+  EXPECT_FALSE(tables.topology());
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    host::FrameBuilder builder;
+    builder.begin(i, 100 * i);
+    host::OutputCollector collector;
+    collector.begin(&builder.finish(), {});
+    hw_topology_node_t node{};
+    node.id = i;
+    node.kind = HW_TOPOLOGY_DISCONTINUITY;
+    node.direction = 1;
+    node.size_m = std::numeric_limits<double>::infinity();
+    const hw_topology_t topology{
+        sizeof topology, HW_LOOP_OPEN, sizeof node, sizeof(hw_topology_edge_t), 1, &node, 0, nullptr, "note"};
+    const hw_output_t output{sizeof output, HW_OUTPUT_TOPOLOGY, 0, 0, &topology};
+    if (i < 2) {
+      ASSERT_EQ(collector.put(&output), HW_OK);
+    }
+    tables.add({.iteration = i, .t_ns = 100 * i}, collector.outputs(), {});
+  }
+  ASSERT_TRUE(tables.topology());
+  ASSERT_EQ(tables.topology()->nodes.size(), 1u);
+  EXPECT_EQ(tables.topology()->nodes[0].id, 1u);
+  EXPECT_EQ(tables.topology()->nodes[0].size_m, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(tables.topology()->note, "note");
+  tables.close();
 }
 
 }  // namespace

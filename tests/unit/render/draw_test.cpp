@@ -128,7 +128,8 @@ TEST(Draw, DashedLineHasGaps) {
 
 TEST(Draw, MarksStandAtTheirPlaces) {
   for (const MarkerShape shape :
-       {MarkerShape::kDot, MarkerShape::kCross, MarkerShape::kDiamond, MarkerShape::kSquare}) {
+       {MarkerShape::kDot, MarkerShape::kCross, MarkerShape::kDiamond, MarkerShape::kSquare,
+        MarkerShape::kSquareWithCircle, MarkerShape::kSquareWithTriangle}) {
     Picture picture;
     picture.markers.push_back({{{1.0, 2.0, 0.0}, {-3.0, 1.0, 0.0}}, shape, palette::kEstimate, 10.0});
     for (const Vec3& place : picture.markers[0].positions) {
@@ -141,6 +142,29 @@ TEST(Draw, RingIsEmptyInside) {
   Picture picture;
   picture.markers.push_back({{{1.13, 2.17, 0.0}}, MarkerShape::kRing, palette::kTruth, 16.0});
   EXPECT_EQ(difference(pixel_at(picture, top_over(0.0, 0.0, 12.0), {1.13, 2.17, 0.0}), palette::kPaper), 0);
+}
+
+TEST(Draw, SquaresHaveACircleOrATriangleInside) {
+  const View view = top_over(0.0, 0.0, 12.0);
+  const Vec3 place(1.13, 2.17, 0.0);
+  for (const MarkerShape shape : {MarkerShape::kSquareWithCircle, MarkerShape::kSquareWithTriangle}) {
+    Picture picture;
+    picture.markers.push_back({{place}, shape, palette::kTruth, 80.0});
+    const Camera camera = picture_camera(picture, view, kWidth, kHeight);
+    const Image image = draw(picture, view, kWidth, kHeight);
+    const Vec2 middle = camera.project(place)->pixel;
+    const auto is_painted = [&](double right, double down) {
+      return difference(image.at(static_cast<int>(middle.x() + right), static_cast<int>(middle.y() + down)),
+                        palette::kTruth) < 40;
+    };
+    for (const double side : {-30.0, 30.0}) {
+      EXPECT_TRUE(is_painted(side, 0) && is_painted(0, side) && is_painted(side, side)) << "the rim";
+      EXPECT_FALSE(is_painted(0.7 * side, -0.7 * side)) << "a gap";
+    }
+    const bool is_circle = shape == MarkerShape::kSquareWithCircle;
+    EXPECT_EQ(is_painted(-9, -9), is_circle) << "beside the top of the triangle";
+    EXPECT_EQ(is_painted(13, 11), !is_circle) << "the right corner of the triangle";
+  }
 }
 
 TEST(Draw, CrossingLinesOfABundleDoNotAddUp) {

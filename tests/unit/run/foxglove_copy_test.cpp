@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "base/error.hpp"
@@ -92,6 +93,37 @@ std::string record_driven(bool with_view) {
   return out.text();
 }
 
+/// A log of forty frames with a topology at every tenth, a drawing at each, and a topology in the map at the end.
+std::string record_charted(bool with_view) {
+  LogSource source = forty_frames();
+  log::StringOutput out;
+  LogRecorder recorder(out, source, {{"name", "charted"}});
+  if (with_view) recorder.add_view(false);
+  SourceFrame frame;
+  host::OutputCollector collector;
+  const auto put = [&](std::uint32_t kind, const void* payload) {
+    const hw_output_t output{sizeof output, kind, 0, 0, payload};
+    EXPECT_EQ(collector.put(&output), HW_OK);
+  };
+  for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+    source.read(i, frame);
+    recorder.record_input(frame);
+    collector.begin(&frame.samples(), {});
+    const hw_topology_node_t room{i, HW_TOPOLOGY_ROOM, 0, 1, std::nan(""), frame.t_ns(), 0, 1};
+    const hw_topology_t topology{
+        sizeof topology, HW_LOOP_OPEN, sizeof room, sizeof(hw_topology_edge_t), 1, &room, 0, nullptr, ""};
+    if (i % 10 == 0) put(HW_OUTPUT_TOPOLOGY, &topology);
+    const hw_drawing_point_t point{1, 0.1 * i};
+    const hw_drawing_item_t circle{HW_DRAWING_CIRCLE, HW_COLOUR_SENSED, 0, 0, 0.5, 0, 1, nullptr};
+    const hw_drawing_t drawing{sizeof drawing, sizeof circle, 1, &circle, sizeof point, 0, 1, &point};
+    put(HW_OUTPUT_DRAWING, &drawing);
+    recorder.record_answer(collector.outputs());
+  }
+  recorder.record_map({.topology = log::Topology{.loop = log::LoopState::kClosed}});
+  recorder.finish();
+  return out.text();
+}
+
 /// Those of the run's own channels.
 std::map<std::string, std::vector<std::string>> own_messages(const std::string& bytes) {
   auto topics = messages(bytes);
@@ -120,6 +152,16 @@ TEST(FoxgloveCopy, ShowsARobotThatADriveMoves) {
   ASSERT_EQ(topics.at("/foxglove/log").size(), 1u);
   EXPECT_NE(topics.at("/foxglove/log")[0].find("push: left"), std::string::npos);
   EXPECT_FALSE(messages(record(true)).contains("/foxglove/robot/body")) << "nor of older logs";
+}
+
+TEST(FoxgloveCopy, ShowsTopologiesAndDrawings) {
+  const std::string with_view = record_charted(true);
+  EXPECT_EQ(copy(record_charted(false)).bytes, with_view);
+  const auto topics = messages(with_view);
+  EXPECT_EQ(topics.at("/hallway/output/topology").size(), 5u);
+  EXPECT_EQ(topics.at("/foxglove/topology").size(), 5u);
+  EXPECT_EQ(topics.at("/hallway/output/drawing").size(), 40u);
+  EXPECT_EQ(topics.at("/foxglove/drawing").size(), 40u);
 }
 
 TEST(FoxgloveCopy, AViewThatIsThereIsMadeAnew) {

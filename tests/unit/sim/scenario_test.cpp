@@ -185,6 +185,8 @@ TEST(LoadScenario, APictureShowsTheUsualLayersUnlessToldOtherwise) {
   EXPECT_TRUE(picture.shows(PictureLayer::kFrustum));
   EXPECT_FALSE(picture.shows(PictureLayer::kSubmaps));
   EXPECT_FALSE(picture.shows(PictureLayer::kDeskewed));
+  EXPECT_TRUE(picture.shows(PictureLayer::kTopology));
+  EXPECT_TRUE(picture.shows(PictureLayer::kDrawing));
 }
 
 TEST(LoadScenario, TakesItsSchema) {
