@@ -18,6 +18,7 @@
 #include "console.hpp"
 #include "host/plugin_table.hpp"
 #include "isolation_options.hpp"
+#include "maps_folder.hpp"
 #include "output_file.hpp"
 #include "plugin_argument.hpp"
 #include "plugin_report.hpp"
@@ -93,16 +94,10 @@ study::Request request_of(const study::Study& study, const StudyOptions& options
   return request;
 }
 
-/// Where installed programs have them; in a build folder a link leads to the sources.
-fs::path maps_folder(const StudyOptions& options) {
-  if (!options.maps.empty()) return options.maps;
-  return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/hallway/maps";
-}
-
 fs::path data_folder(const StudyOptions& options) {
   if (!options.data.empty()) return options.data;
   const char* named = std::getenv("HALLWAY_DATA");
-  return named != nullptr ? fs::path(named) : maps_folder(options).parent_path() / "data";
+  return named != nullptr ? fs::path(named) : maps_folder(options.maps).parent_path() / "data";
 }
 
 std::uint64_t iterations_of(const std::vector<study::RunSpec>& specs) {
@@ -141,7 +136,7 @@ int run_study(const study::Study& study, const StudyOptions& options) {
   catch_interrupts();
   Progress progress("iterations", iterations_of(specs), options.quiet || options.json);
   const std::vector<study::StudyRun> runs =
-      study::make_runs(specs, {.folders = {.maps = maps_folder(options), .out = folder},
+      study::make_runs(specs, {.folders = {.maps = maps_folder(options.maps), .out = folder},
                                .data = data_folder(options),
                                .threads = options.threads,
                                .plugin_folders = plugin_folders(options.plugin_path),
@@ -185,7 +180,7 @@ void add_options(const study::Study& study, Command& command, StudyOptions& opti
   add_shared(command, Shared::kSteps, &options.steps).fallback("the study's");
   command.flag("--quick", &options.quick, "A small size for trying out: seconds, at most two seeds");
   add_shared(command, Shared::kOutFolder, &options.out).fallback("out/study-<name>");
-  command.option("--maps", &options.maps, "Folder of the scenarios [beside the program]").value("DIR");
+  add_maps_option(command, options.maps);
   command.option("--data", &options.data, "Folder of recorded data [$HALLWAY_DATA]").value("DIR");
   add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
   add_limit_options(command, options.isolation);
@@ -212,6 +207,7 @@ void add_study_command(Command& app) {
                     study.size, study.figures, study.name, study.name));
     command.action([&study, options] { return run_study(study, *options); });
   }
+  add_first_robot_command(group);
 }
 
 }  // namespace hallway::cli

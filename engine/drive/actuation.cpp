@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "drive/actuation.hpp"
 
+#include <algorithm>
+
 namespace hallway::drive {
 
 Effect between(const Effect& from, const Effect& to, std::int64_t part, std::int64_t whole) {
@@ -15,11 +17,19 @@ Effect between(const Effect& from, const Effect& to, std::int64_t part, std::int
 
 Actuation::Actuation(const DriveSpec& spec, std::uint64_t seed)
     : spec_(spec),
+      turns_(seed, stream_id("drive.turn_slip")),
+      turn_slip_(spec.turn_slip),
       forward_noise_(spec.forward_noise, seed, "drive.forward_noise"),
       angular_noise_(spec.angular_noise, seed, "drive.angular_noise"),
       lateral_drift_(spec.lateral_drift, seed, "drive.lateral_drift"),
       left_slip_(spec.left_slip, seed, "drive.left_slip"),
       right_slip_(spec.right_slip, seed, "drive.right_slip") {}
+
+void Actuation::begin_turn() {
+  if (spec_.turn_slip_noise == 0.0) return;
+  const double drawn = spec_.turn_slip + spec_.turn_slip_noise * turns_.normal(0, turn_++);
+  turn_slip_ = std::clamp(drawn, 0.0, std::max(kMostTurnSlip, spec_.turn_slip));
+}
 
 bool Actuation::is_constant() const {
   return forward_noise_.is_constant() && angular_noise_.is_constant() && lateral_drift_.is_constant() &&
@@ -45,7 +55,7 @@ PlanarTwist Actuation::slipped(std::int64_t t_ns, const PlanarTwist& actuated, P
   } else {
     for (std::size_t i = 0; i < speeds.size(); ++i) speeds[i] *= i % 2 == 0 ? left : right;
     body = twist_of(spec_, speeds);
-    body.angular_rad_s *= 1.0 - spec_.turn_slip;
+    body.angular_rad_s *= 1.0 - turn_slip_;
   }
   body.lateral_m_s += lateral_drift_.at(t_ns) * body.forward_m_s;
   return body;

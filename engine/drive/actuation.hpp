@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/random.hpp"
 #include "drive/disturbance.hpp"
 #include "drive/motion.hpp"
 #include "drive/spec.hpp"
@@ -23,7 +24,7 @@ Effect between(const Effect& from, const Effect& to, std::int64_t part, std::int
 ///
 /// The wheels turn by the driven twist with its noise. The body follows what the slipping wheels leave, loses the tracks' share of the turn, and drifts
 /// sideways. Ackermann: the body stays on the circle of its steering, and both slips reduce the way on it; noise of the speed goes to the turn as well.
-/// The five disturbances have streams of random numbers of their own: none changes the draws of another.
+/// The five disturbances and the shares of turns have streams of random numbers of their own: none changes the draws of another.
 class Actuation {
  public:
   /// The spec must be checked.
@@ -32,6 +33,9 @@ class Actuation {
   /// The effect of a driven twist at a time, t_ns >= 0.
   Effect at(std::int64_t t_ns, const PlanarTwist& driven);
 
+  /// The tracks lose another share from now on: one normal deviate, a function of the seed and of how often this was called.
+  void begin_turn();
+
   /// Whether no disturbance changes with time.
   bool is_constant() const;
 
@@ -39,6 +43,9 @@ class Actuation {
   PlanarTwist slipped(std::int64_t t_ns, const PlanarTwist& actuated, PerWheel speeds);
 
   DriveSpec spec_;
+  Random turns_;
+  std::uint64_t turn_ = 0;
+  double turn_slip_;  // of the present turn
   DisturbanceProcess forward_noise_;
   DisturbanceProcess angular_noise_;
   DisturbanceProcess lateral_drift_;

@@ -98,7 +98,14 @@ void Drive::act(const LimitedCommand& limited) {
   const auto same = [&](std::size_t i) { return driven_[i].target() == targets[i]; };
   if (same(0) && same(1) && same(2)) return;  // on its way
   cut_plan();
+  begin_turn(limited.command.angular_rad_s);
   go_to(targets);
+}
+
+void Drive::begin_turn(double angular_rad_s) {
+  const int sign = angular_rad_s > 0.0 ? 1 : angular_rad_s < 0.0 ? -1 : 0;
+  if (sign != 0 && sign != turn_sign_) actuation_.begin_turn();
+  turn_sign_ = sign;
 }
 
 void Drive::act_on_pending() {

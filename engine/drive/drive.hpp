@@ -85,6 +85,7 @@ class Drive {
   bool wheels_stay_within(const Parts& parts) const;
   void go_to(const std::array<double, 3>& targets);
   void act(const LimitedCommand& limited);
+  void begin_turn(double angular_rad_s);
   void act_on_pending();
   Effect effect_at(std::int64_t t_ns) const;
   PlanarTwist body_at(std::int64_t t_ns) const;
@@ -96,6 +97,7 @@ class Drive {
   Actuation actuation_;
   std::int64_t present_ns_ = 0;
   std::vector<Pending> pending_;  // by time
+  int turn_sign_ = 0;             // of the command that acts
   Parts driven_;
   Parts push_;  // what contacts added to the body's twist
   Plan plan_;

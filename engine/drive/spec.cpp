@@ -43,9 +43,12 @@ void check_disturbance(const std::string& key, const Disturbance& disturbance) {
 
 void check_tracks(const DriveSpec& spec) {
   check_below("turn_slip", spec.turn_slip, 1.0, "1");
-  if (spec.turn_slip > 0.0 && spec.kind != DriveKind::kTracked) {
-    refuse_key("turn_slip", "is for the kind tracked, not " + std::string(name_of(spec.kind)));
-  }
+  check_range("turn_slip_noise", spec.turn_slip_noise, 0.0, 1.0);
+  if (spec.kind == DriveKind::kTracked) return;
+  const char* key = spec.turn_slip > 0.0         ? "turn_slip"
+                    : spec.turn_slip_noise > 0.0 ? "turn_slip_noise"
+                                                 : nullptr;
+  if (key != nullptr) refuse_key(key, "is for the kind tracked, not " + std::string(name_of(spec.kind)));
 }
 
 void check_lateral(const DriveSpec& spec) {

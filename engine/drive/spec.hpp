@@ -35,6 +35,9 @@ struct Disturbance {
   bool operator==(const Disturbance&) const = default;
 };
 
+/// Tracks lose no larger share of a turn, whatever was drawn.
+inline constexpr double kMostTurnSlip = 0.95;
+
 /// The geometry, limits and faults of a drive. The defaults are those of a small indoor robot without faults. A member's name is its key in files; a
 /// limit holds in both directions. Noise is on top of the limits.
 struct DriveSpec {
@@ -67,6 +70,8 @@ struct DriveSpec {
   double dead_band_rad_s = 0.0;
   /// Tracked: share of the driven turn that the tracks lose, in [0, 1). A turn of the body at w takes w / (1 - turn_slip) of the tracks.
   double turn_slip = 0.0;
+  /// Tracked: standard deviation of the share over turns, in [0, 1]. A turn lasts while the commanded turn keeps its sign; its share is within [0, kMostTurnSlip].
+  double turn_slip_noise = 0.0;
   /// Share that is added to the driven speed, forward and lateral; the wheels turn by it.
   Disturbance forward_noise{};
   /// Share that is added to the driven turn; the wheels turn by it.

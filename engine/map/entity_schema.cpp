@@ -103,6 +103,7 @@ constexpr std::array kDrive{
     number("dead_band_m_s", 0.0, 1000.0, "0"),
     number("dead_band_rad_s", 0.0, 1000.0, "0"),
     number("turn_slip", 0.0, 1.0, "0"),
+    number("turn_slip_noise", 0.0, 1.0, "0"),
     number("forward_noise_mean", -1.0, 1.0, "0"),
     number("forward_noise_sigma", 0.0, 1.0, "0"),
     number("forward_noise_correlation_s", 0.0, 10000.0, "0"),

@@ -108,7 +108,7 @@ inline constexpr std::array kSensorKeys = [] {
                  "standard deviation of a second part of the noise, per metre of distance"),
       of_variant("infrared", number("noise_per_m2", 0.0, 100.0, "0"),
                  "standard deviation of a second part of the noise, per square metre of distance squared"),
-      of_variant("lidar sonar", number("noise_per_m", 0.0, 1.0, "0"),
+      of_variant("lidar sonar infrared", number("noise_per_m", 0.0, 1.0, "0"),
                  "standard deviation of a second part of the noise, per metre of distance"),
       of_variant("lidar", number("noise_incidence_deg", 0.0, 10.0, "0"),
                  "a third part on slanted surfaces: this angle times distance times tangent of the slant"),

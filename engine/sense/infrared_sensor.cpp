@@ -45,6 +45,7 @@ void InfraredSensor::check() const {
   check.ranges(spec_.min_range_m, spec_.max_range_m);
   check.positive("max_range_m", spec_.max_range_m);
   check.not_negative("noise_m", spec_.noise_m);
+  check.not_negative("noise_per_m", spec_.noise_per_m);
   check.not_negative("noise_per_m2", spec_.noise_per_m2);
   check.within("least_light", spec_.least_light, 0.0, 1.0);
   check.within("missed", spec_.missed, 0.0, 1.0);
@@ -72,7 +73,8 @@ double InfraredSensor::measured(std::uint32_t number, std::size_t ray, double tr
     if (!(random_.uniform(number, index + infrared_draw::kFalse) < spec_.false_reading)) return kNothing_m;
     range = random_.uniform(number, index + infrared_draw::kFalseAt, spec_.min_range_m, spec_.max_range_m);
   } else if (range >= spec_.min_range_m) {
-    const double sigma = std::hypot(spec_.noise_m, spec_.noise_per_m2 * range * range);
+    const double sigma =
+        std::hypot(std::hypot(spec_.noise_m, spec_.noise_per_m2 * range * range), spec_.noise_per_m * range);
     if (sigma > 0.0) range += sigma * random_.normal(number, index + infrared_draw::kNoise);
   }
   if (only_near) return range <= spec_.near_m ? spec_.near_m : kNothing_m;

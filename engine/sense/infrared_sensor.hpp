@@ -24,8 +24,10 @@ struct InfraredSpec {
   std::int64_t duration_ns = 0;  ///< of a reading, from 0: what the rays' shares are of
   double min_range_m = 0.05;     ///< what is nearer gives no answer
   double max_range_m = 0.8;      ///< what is farther is as if it were not there
-  double noise_m = 0.0;          ///< standard deviation, and its part that grows as triangulation's does:
-  double noise_per_m2 = 0.0;     ///< sigma^2 = noise_m^2 + (noise_per_m2 d^2)^2
+  double noise_m =
+      0.0;  ///< standard deviation, a part that grows with the range, as a threshold that drifts, and one that grows
+  double noise_per_m = 0.0;   ///< as triangulation's does:
+  double noise_per_m2 = 0.0;  ///< sigma^2 = noise_m^2 + (noise_per_m d)^2 + (noise_per_m2 d^2)^2
   /// Light that comes back, SurfaceMaterial::infrared times the cosine of the angle of incidence: what gives less is not seen, [0, 1].
   double least_light = 0.1;
   double missed = 0.0;  ///< share of readings that see nothing although something is there, [0, 1]

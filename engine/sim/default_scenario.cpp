@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/toml_text.hpp"
 #include "map/entities.hpp"
 #include "map/path.hpp"
 #include "map/sensors.hpp"
@@ -21,16 +22,6 @@ namespace {
 constexpr double kDefaultSpeed_m_s = 1.0;
 constexpr double kDefaultPeriod_s = 0.1;
 constexpr std::uint32_t kStepsWithoutPath = 100;
-
-/// A text as a TOML string.
-std::string toml_text(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
-}
 
 std::string joined(const std::vector<std::string>& names) {
   std::string out;

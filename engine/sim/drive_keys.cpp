@@ -76,6 +76,7 @@ drive::DriveSpec read_drive(TableReader& table, const DriveTables& tables,
   keys.number("dead_band_m_s", spec.dead_band_m_s);
   keys.number("dead_band_rad_s", spec.dead_band_rad_s);
   keys.number("turn_slip", spec.turn_slip);
+  keys.number("turn_slip_noise", spec.turn_slip_noise);
   spec.forward_noise = read_disturbance(table, tables, "forward_noise");
   spec.angular_noise = read_disturbance(table, tables, "angular_noise");
   spec.lateral_drift = read_disturbance(table, tables, "lateral_drift");
@@ -132,6 +133,7 @@ const std::vector<std::string> kDriveKeys{"kind",
                                           "dead_band_m_s",
                                           "dead_band_rad_s",
                                           "turn_slip",
+                                          "turn_slip_noise",
                                           "forward_noise",
                                           "angular_noise",
                                           "lateral_drift",

@@ -129,6 +129,7 @@ sense::InfraredSpec read_infrared(const std::string& name, SensorReader& sensor)
   spec.name = name;
   read_reach(sensor, spec);
   spec.noise_m = sensor.number("noise_m");
+  spec.noise_per_m = sensor.number("noise_per_m");
   spec.noise_per_m2 = sensor.number("noise_per_m2");
   spec.least_light = sensor.number("least_light");
   spec.missed = sensor.number("missed_rate");

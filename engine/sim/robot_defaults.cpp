@@ -26,7 +26,7 @@ bool fits_kind(std::string_view key, const TomlTable& drive) {
   const TomlNode* node = find(drive, "kind");
   const auto* kind = node != nullptr ? std::get_if<std::string>(&node->value) : nullptr;
   if (kind == nullptr) return true;
-  return (key != "turn_slip" || *kind == "tracked") &&
+  return ((key != "turn_slip" && key != "turn_slip_noise") || *kind == "tracked") &&
          (key != "max_lateral_m_s" || *kind == "omnidirectional");
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
@@ -80,6 +82,55 @@ TEST(Drive, TracksNeedMorePowerToTurn) {
   EXPECT_NEAR(drive.driven().angular_rad_s, 2.0, 1e-15);
 }
 
+/// The share of a turn that tracks lose while they are commanded to turn by a rate, from half a second after the command.
+double slip_of_turn(Drive& drive, double angular_rad_s) {
+  const std::int64_t begin = drive.present_ns();
+  drive.command(begin, {0.1, 0.0, angular_rad_s});
+  drive.advance(begin + kSecond);
+  return 1.0 - drive.twist().angular_rad_s / drive.driven().angular_rad_s;
+}
+
+TEST(Drive, TracksLoseAnotherShareOfEachTurn) {
+  const DriveSpec spec{.kind = DriveKind::kTracked, .turn_slip = 0.25, .turn_slip_noise = 0.1};
+  Drive drive(spec, 3);
+  const double first = slip_of_turn(drive, 0.4);
+  EXPECT_EQ(slip_of_turn(drive, 0.2), first) << "the same turn, slower";
+  const double right = slip_of_turn(drive, -0.4);
+  EXPECT_NE(right, first);
+  EXPECT_EQ(slip_of_turn(drive, -0.3), right);
+  drive.halt(drive.present_ns());
+  drive.advance(drive.present_ns() + kSecond);
+  EXPECT_NE(slip_of_turn(drive, -0.4), right) << "it went straight on between them";
+  Drive again(spec, 3), other(spec, 4);
+  EXPECT_EQ(slip_of_turn(again, 0.4), first);
+  EXPECT_NE(slip_of_turn(other, 0.4), first);
+}
+
+TEST(Drive, SharesOfTurnsHaveTheirMeanAndDeviation) {
+  Drive drive({.kind = DriveKind::kTracked, .turn_slip = 0.4, .turn_slip_noise = 0.1}, 5);
+  constexpr int kTurns = 2000;
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < kTurns; ++i) {
+    const double slip = slip_of_turn(drive, i % 2 == 0 ? 0.4 : -0.4);
+    sum += slip;
+    squares += (slip - 0.4) * (slip - 0.4);
+  }
+  EXPECT_NEAR(sum / kTurns, 0.4, 4.0 * 0.1 / std::sqrt(kTurns));
+  EXPECT_NEAR(std::sqrt(squares / kTurns), 0.1, 4.0 * 0.1 / std::sqrt(2.0 * kTurns));
+}
+
+TEST(Drive, SharesOfTurnsStayWithinTheirLimits) {
+  Drive drive({.kind = DriveKind::kTracked, .turn_slip = 0.5, .turn_slip_noise = 1.0}, 5);
+  double least = 1.0, most = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const double slip = slip_of_turn(drive, i % 2 == 0 ? 0.4 : -0.4);
+    least = std::min(least, slip);
+    most = std::max(most, slip);
+  }
+  EXPECT_NEAR(least, 0.0, 1e-12);
+  EXPECT_NEAR(most, kMostTurnSlip, 1e-12);
+}
+
 TEST(Drive, PiecesCoverTheTimeWithoutGaps) {
   DriveSpec spec{.latency_ns = 33 * kMs};
   testing::add_noise(spec);
@@ -103,6 +154,7 @@ TEST(Drive, NoiseActsAtEveryKnot) {
     Drive drive(spec, 7);
     Actuation actuation(spec, 7);
     drive.command(0, {0.3, 0.0, 0.5});
+    actuation.begin_turn();
     for (std::int64_t t = 5 * kMs; t < 4 * kSecond; t += 5 * kMs) {
       drive.advance(t);
       if (t % kKnotNs != 0) continue;

@@ -49,6 +49,7 @@ inline DriveSpec random_spec(Dice& dice) {
 
 /// Adds noise and slip of all sorts.
 inline void add_noise(DriveSpec& spec) {
+  if (spec.kind == DriveKind::kTracked) spec.turn_slip_noise = 0.1;
   spec.forward_noise = {0.02, 0.05, 200'000'000};
   spec.angular_noise = {-0.01, 0.04, 0};
   spec.lateral_drift = {0.01, 0.03, 1'000'000'000};

@@ -40,7 +40,8 @@ std::vector<NumberKey> number_keys() {
       {"max_angular_acceleration_rad_s2", [](S& s, double v) { s.max_angular_acceleration_rad_s2 = v; }},
       {"dead_band_m_s", [](S& s, double v) { s.dead_band_m_s = v; }, DriveKind::kDifferential, true},
       {"dead_band_rad_s", [](S& s, double v) { s.dead_band_rad_s = v; }, DriveKind::kDifferential, true},
-      {"turn_slip", [](S& s, double v) { s.turn_slip = v; }, DriveKind::kTracked, true}};
+      {"turn_slip", [](S& s, double v) { s.turn_slip = v; }, DriveKind::kTracked, true},
+      {"turn_slip_noise", [](S& s, double v) { s.turn_slip_noise = v; }, DriveKind::kTracked, true}};
   const std::vector<std::pair<std::string, Disturbance S::*>> disturbances{
       {"forward_noise", &S::forward_noise},
       {"angular_noise", &S::angular_noise},
@@ -103,6 +104,7 @@ TEST(DriveSpec, ValuesThatDoNotFitAreRefused) {
   EXPECT_EQ(refused({.max_speed_m_s = 0.5, .dead_band_m_s = 0.5}), "key `dead_band_m_s`");
   EXPECT_EQ(refused({.max_angular_rad_s = 0.5, .dead_band_rad_s = 0.6}), "key `dead_band_rad_s`");
   EXPECT_EQ(refused({.turn_slip = 0.1}), "key `turn_slip`");
+  EXPECT_EQ(refused({.turn_slip_noise = 0.1}), "key `turn_slip_noise`");
   EXPECT_EQ(refused({.kind = DriveKind::kTracked, .turn_slip = 1.0}), "key `turn_slip`");
   EXPECT_EQ(refused({.max_lateral_m_s = 0.1}), "key `max_lateral_m_s`");
   EXPECT_EQ(refused({.kind = DriveKind::kOmnidirectional, .max_speed_m_s = 0.5, .max_lateral_m_s = 0.6}),

@@ -300,16 +300,22 @@ TEST(RobotFile, TheDistanceBesideABodyIsThatToItsOutline) {
 }
 
 TEST(RobotFile, TheExamplesAreSoundAndCanonical) {
-  for (const char* name : {"first", "cart"}) {
+  struct Example {
+    std::string name;
+    std::size_t zones, sensors;
+    bool is_cylinder;
+  };
+  for (const auto& [name, zones, sensors, is_cylinder] :
+       {Example{"first", 8, 11, false}, Example{"cart", 4, 3, true}, Example{"rug_warrior", 3, 4, true}}) {
     SCOPED_TRACE(name);
-    const auto file = hallway::test::source_folder() / "maps" / "robots" / (std::string(name) + ".map");
+    const auto file = hallway::test::source_folder() / "maps" / "robots" / (name + ".map");
     const Document document = load(file);
     EXPECT_EQ(print(document), read_file(file));
     EXPECT_TRUE(check(document).empty());
     const RobotFile robot = load_robot_file(file);
-    EXPECT_EQ(robot.zones.size(), robot.body.is_cylinder() ? 4u : 2u);
-    EXPECT_EQ(robot.sensors.size(), robot.body.is_cylinder() ? 3u : 11u);
-    EXPECT_EQ(robot.body.is_cylinder(), std::string(name) == "cart");
+    EXPECT_EQ(robot.zones.size(), zones);
+    EXPECT_EQ(robot.sensors.size(), sensors);
+    EXPECT_EQ(robot.body.is_cylinder(), is_cylinder);
   }
 }
 

@@ -141,6 +141,7 @@ TEST(InfraredSensor, OnlySaysNearOrNotWhereAsked) {
 TEST(InfraredSensor, NoiseAndRatesAreAsDeclared) {
   InfraredSpec spec = plain_infrared();
   spec.noise_m = 0.001;
+  spec.noise_per_m = 0.004;
   spec.noise_per_m2 = 0.02;
   spec.missed = 0.03;
   spec.false_reading = 0.05;
@@ -163,7 +164,7 @@ TEST(InfraredSensor, NoiseAndRatesAreAsDeclared) {
       squares += error * error;
     }
     EXPECT_NEAR(free / kReadings, 0.03 * 0.95, sigma(0.0285));
-    const double variance = 0.001 * 0.001 + std::pow(0.02 * 0.25, 2);
+    const double variance = 0.001 * 0.001 + std::pow(0.004 * 0.5, 2) + std::pow(0.02 * 0.25, 2);
     EXPECT_NEAR(sum / n, 0.0, 3.0 * std::sqrt(variance / n));
     // Of the missed, a twentieth is a false reading, of which 0.08 / 0.75 are as near as that.
     const double strays = 0.03 * 0.05 * 0.08 / 0.75 / 0.97;
@@ -197,6 +198,7 @@ TEST(InfraredSensor, WhatIsOutOfRangeIsRefusedByItsName) {
   EXPECT_EQ(refusal([&](InfraredSpec& s) { s.max_range_m = nan; }), "max_range_m");
   EXPECT_EQ(refusal([](InfraredSpec& s) { s.min_range_m = 2.0; }), "min_range_m");
   EXPECT_EQ(refusal([](InfraredSpec& s) { s.least_light = 1.1; }), "least_light");
+  EXPECT_EQ(refusal([](InfraredSpec& s) { s.noise_per_m = -0.1; }), "noise_per_m");
   EXPECT_EQ(refusal([](InfraredSpec& s) { s.missed = -0.1; }), "missed");
   EXPECT_EQ(refusal([&](InfraredSpec& s) { s.false_reading = nan; }), "false_reading");
   EXPECT_EQ(refusal([](InfraredSpec& s) { s.near_m = 0.9; }), "near_m");

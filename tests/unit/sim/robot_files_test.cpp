@@ -136,7 +136,7 @@ TEST(RobotFiles, EachKeyOfTheDriveIsOfTheFileUnlessItIsGivenNearer) {
   for (const map::KeySpec& key : map::find_entity_spec("hw_drive")->keys) {
     const std::string name(key.name);
     std::string keys = key_text(name, values_of(key)[0]);
-    if (name == "turn_slip") keys += key_text("kind", "tracked");
+    if (name.starts_with("turn_slip")) keys += key_text("kind", "tracked");
     if (name == "max_lateral_m_s") keys += key_text("kind", "omnidirectional");
     if (name == "max_lateral_m_s" || name == "dead_band_m_s") keys += key_text("max_speed_m_s", "1000");
     if (name == "dead_band_rad_s") keys += key_text("max_angular_rad_s", "1000");
