@@ -20,6 +20,7 @@ class PacedSource : public Source {
   PacedSource(Source& source, double rate, std::function<void(Clock::time_point)> sleep_until);
 
   std::uint32_t iterations() const override { return source_.iterations(); }
+  std::optional<eval::FloorPlan> floor_plan() const override { return source_.floor_plan(); }
 
  private:
   void fill(std::uint32_t iteration, SourceFrame& frame) override;

@@ -22,6 +22,7 @@
 #include "host/samples/point_kind.hpp"
 #include "host/samples/range_scan_kind.hpp"
 #include "record/plane_observations.hpp"
+#include "run/scoring/floor_plan.hpp"
 #include "run/sources/abi_pose.hpp"
 #include "sim/describe.hpp"
 #include "sim/scene_surfaces.hpp"
@@ -350,6 +351,12 @@ void SimulatedSource::add_walls() {
   const Pose start = robot_ ? robot_->pose_at(0) : simulator_.pose_at(0);
   const double height_m = (start * pose_of(facts_.sensors.front().T_body_sensor)).t.z();
   add_true_planes(true_planes_of(simulator_.walls_at(height_m)));
+}
+
+std::optional<eval::FloorPlan> SimulatedSource::floor_plan() const {
+  const Pose start = robot_ ? robot_->pose_at(0) : simulator_.pose_at(0);
+  const Vec3 sensor = start * Vec3(0, 0, plan_height_above_body(simulator_.scenario()));
+  return floor_plan_at(simulator_, sensor.z());
 }
 
 /// Adds what a sensor can see; sensors that see the same planes share them.

@@ -28,6 +28,7 @@ class SimulatedSource : public Source {
   bool is_moving() const override { return robot_ && robot_->is_moving(); }
   DriveNotes take_drive_notes() override { return std::exchange(notes_, {}); }
   std::optional<sim::DriveCounts> drive_counts() const override;
+  std::optional<eval::FloorPlan> floor_plan() const override;
 
  private:
   void fill(std::uint32_t iteration, SourceFrame& frame) override;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "eval/floor_plan.hpp"
 #include "geometry/se3.hpp"
 #include "host/plugin.hpp"
 #include "host/samples/frame_builder.hpp"
@@ -111,6 +112,9 @@ class Source {
   virtual DriveNotes take_drive_notes() { return {}; }
   /// Closed loop: what the robot did until now.
   virtual std::optional<sim::DriveCounts> drive_counts() const { return std::nullopt; }
+
+  /// The walls at the height of the sensors that follow them, where the world is known.
+  virtual std::optional<eval::FloorPlan> floor_plan() const { return std::nullopt; }
 
   const SourceFacts& facts() const { return facts_; }
   const std::vector<host::SensorInfo>& sensors() const { return facts_.sensors; }

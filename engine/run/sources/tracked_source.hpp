@@ -16,6 +16,7 @@ class TrackedSource : public Source {
   explicit TrackedSource(std::unique_ptr<Source> source);
 
   std::uint32_t iterations() const override { return source_->iterations(); }
+  std::optional<eval::FloorPlan> floor_plan() const override { return source_->floor_plan(); }
 
  private:
   void fill(std::uint32_t iteration, SourceFrame& frame) override;
