@@ -29,8 +29,8 @@ robot when a plugin is late or fails, and what is recorded can be replayed on
 another machine to the same bytes.
 
 This package contains the program, drivers for recordings and for a UDP
-protocol, and the plugins slam_point, slam_plane, em, icp, wanderer and
-dead_reckoning.")
+protocol, and the plugins slam_point, slam_plane, em, icp, wall_follower,
+wanderer and dead_reckoning.")
 
 set(CPACK_DEBIAN_HALLWAY_PACKAGE_NAME hallway)
 set(CPACK_DEBIAN_HALLWAY_PACKAGE_SECTION science)

@@ -26,7 +26,7 @@ needs bin/hallway-robot libfmt libzstd libz
 needs libexec/hallway/hallway-plugin libfmt
 needs lib/hallway/drivers/replay.so libfmt libzstd libz
 needs lib/hallway/drivers/udp.so libfmt libz
-for plugin in dead_reckoning em icp slam_plane slam_point wanderer; do
+for plugin in dead_reckoning em icp slam_plane slam_point wall_follower wanderer; do
   needs lib/hallway/plugins/$plugin.so
 done
 exit $status

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: MIT
+// What the robot does in each state, and what leads to the next one.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wall_follower/core/follower.hpp"
+
+namespace hallway::wall_follower {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kFrontBrake = 0.35;       // way before a wall ahead in which it slows down [m]
+constexpr double kClear = 0.36;            // what is seen ahead nearer to the robot's line is avoided [m]
+constexpr double kSteer = 2.5;             // slant for each metre beside the wanted line [rad/m]
+constexpr double kMostSlant = 0.55;        // [rad]
+constexpr double kBend = 4.5;              // turn for each metre of way and rad of slant
+constexpr double kTurnDone = 0.03;         // [rad]
+constexpr double kSettleSeconds = 0.45;    // in which the detectors read often enough for their medians
+constexpr double kLeastCorrection = 0.07;  // a slant that is turned away before the robot goes on [rad]
+constexpr int kMostCorrections = 3;
+constexpr double kWallAgain = 0.06;    // way with a wall after which it is there [m]
+constexpr double kJamb = 0.1;          // what is not farther behind the wall's line is of the wall [m]
+constexpr double kLongestDark = 2.5;   // of what infrared does not see [m]
+constexpr double kSweepSeconds = 5.0;  // the sonar that has not swept by then is broken
+constexpr double kVeer = 0.6;          // [rad]
+constexpr double kVeerWay = 0.22;      // [m]
+constexpr double kBumpRow = 0.9;       // way in which bumps are of one thing [m]
+constexpr double kBumpKeeps = 1.0;     // way for which a bump asks for another distance [m]
+
+}  // namespace
+
+Command Follower::start() {
+  if (!filters_[kRight].ready() || !filters_[kFront].ready()) return {};
+  const Place& here = odometer_.reckoned();
+  wall_.expect(here.out(Vec2(0.0, -options_.distance_m)), here.heading);
+  last_right_.way_m = odometer_.way_m();
+  enter(State::seek);
+  return {};
+}
+
+Command Follower::seek() {
+  if (front_is_blocked()) {
+    corner_ahead(false);
+    return {};
+  }
+  if (is_wall_again()) {
+    const Place& here = odometer_.reckoned();
+    wall_.expect(last_right_.at, here.heading);
+    after_turn_ = true;
+    enter(State::settle);
+    return {};
+  }
+  return along(options_.speed_m_s);
+}
+
+Command Follower::follow() {
+  if (front_is_blocked()) {
+    corner_ahead(true);
+    return {};
+  }
+  if (!sees_right() && gone_way() > options_.edge_m) {
+    wall_ended();
+    return along(options_.speed_m_s);
+  }
+  return along(options_.speed_m_s);
+}
+
+/// A wall ahead: the way turns left, along it.
+void Follower::corner_ahead(bool charted) {
+  if (charted) add_node_here(Kind::corner, body_.infrared[kFront].point(range_m(kFront)));
+  const Place& here = odometer_.reckoned();
+  const double wall = wall_.direction();
+  const double front = std::isfinite(range_m(kFront)) ? range_m(kFront) : 0.0;
+  const Vec2 ahead = here.out(body_.infrared[kFront].point(front));
+  settles_ = rounds_ = 0;
+  turn_to(wall + kQuarter, State::settle);
+  wall_.expect(ahead, wall + kQuarter);
+}
+
+/// The wall has ended, or goes on beyond the reach of infrared.
+void Follower::wall_ended() {
+  wall_.drop_pending();
+  edge_at_ = last_right_.at;
+  opening_distance_ = std::clamp(wall_.distance(odometer_.reckoned().at), 0.35, options_.distance_m);
+  opening_ = Opening::hallway;
+  jamb_votes_ = 0;
+  edge_node_ = chart_.nodes.size();
+  add_node(Kind::discontinuity, last_right_, last_right_.way_m, 1, kInfinite);
+  enter(State::advance);
+}
+
+/// The wall is there again behind an opening.
+void Follower::wall_again() {
+  const double direction = wall_.direction();
+  add_opening(Kind::room);
+  add_node(Kind::discontinuity, last_right_, right_again_way_, -1, kInfinite);
+  opening_ = Opening::hallway;
+  wall_.expect(last_right_.at, direction);
+  enter(State::follow);
+}
+
+double Follower::past_edge() const {
+  return unit(wall_.direction()).dot(odometer_.reckoned().at - edge_at_);
+}
+
+bool Follower::is_wall_again() const {
+  return is_right_again_ && odometer_.way_m() - right_again_way_ > kWallAgain;
+}
+
+/// Before a wall ahead, on the way past an opening: whether the detector between front and right sees the followed wall's line, or nothing at it.
+void Follower::look_for_jamb() {
+  const double front = range_m(kFront);
+  if (front < options_.front_m + 0.09 || front > options_.front_m + 0.22) return;
+  const double seen = range_m(kFrontRight);
+  const double line = wall_.distance(odometer_.reckoned().at);
+  const bool is_jamb = seen < kInfinite && -body_.infrared[kFrontRight].point(seen).y() < line + kJamb;
+  jamb_votes_ += is_jamb ? 1 : -1;
+}
+
+Command Follower::advance() {
+  look_for_jamb();
+  if (is_wall_again()) {
+    wall_again();
+    return along(options_.speed_m_s);
+  }
+  if (front_is_blocked() || past_edge() >= opening_distance_) {
+    enter(State::sweep);
+    return {};
+  }
+  return along(options_.speed_m_s);
+}
+
+Command Follower::sweep(const Senses& senses) {
+  const bool is_late = seconds_in_state() > kSweepSeconds;
+  const bool is_swept = senses.sweep && senses.sweep->begin_ns >= entered_ns_ + 200'000'000;
+  if (!is_swept && !is_late) return {};
+  ++sweeps_;
+  const Place& here = odometer_.reckoned();
+  const double wall = wall_.distance(here.at);
+  opening_ = Opening::hallway;
+  if (is_swept) {
+    view_ = view_of(*senses.sweep, -kQuarter - wall_.slant(here), options_);
+    opening_ = classify(view_, wall, options_);
+  }
+  // What the robot touched on the way is too near for the sonar.
+  if (odometer_.way_m() < keep_until_) opening_ = Opening::covered;
+  swept_ =
+      WallPoint{here.out(Vec2(0.0, -wall)), odometer_.way_m(), t_ns_, odometer_.charted(), Vec2(0.0, -wall)};
+  is_opening_charted_ = false;
+  if (opening_ == Opening::covered) hide_edge();
+  if (opening_ == Opening::hallway) {
+    add_opening(Kind::junction);
+    turn_right();
+  } else {
+    enter(State::pass);
+  }
+  return {};
+}
+
+/// Charts what was swept last, once it is known what it is.
+void Follower::add_opening(Kind kind) {
+  if (is_opening_charted_) return;
+  is_opening_charted_ = true;
+  if (opening_ != Opening::covered)
+    add_node(kind, swept_, swept_.way_m, 0, std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The wall's end was none: something dark stands there.
+void Follower::hide_edge() {
+  if (edge_node_ < chart_.nodes.size()) chart_.nodes[edge_node_].is_hidden = true;
+}
+
+Command Follower::pass() {
+  look_for_jamb();
+  if (is_wall_again()) {
+    wall_again();
+    return along(options_.speed_m_s);
+  }
+  const bool is_dark = opening_ == Opening::covered;
+  if (front_is_blocked()) {
+    if (is_dark || jamb_votes_ > 0) {
+      add_opening(Kind::room);
+      corner_ahead(true);
+    } else {
+      enter(State::reverse);
+    }
+    return {};
+  }
+  if (past_edge() > (is_dark ? kLongestDark : options_.longest_pass_m)) enter(State::reverse);
+  return along(options_.speed_m_s);
+}
+
+Command Follower::reverse() {
+  if (past_edge() > opening_distance_) {
+    const double slant = wall_.slant(odometer_.reckoned());
+    return {-options_.speed_m_s, std::clamp(-2.0 * slant, -0.5, 0.5)};
+  }
+  add_opening(Kind::junction);
+  turn_right();
+  return {};
+}
+
+/// Turns about the end of the wall. What is behind the corner is expected where the wall has ended.
+void Follower::turn_right() {
+  const double direction = wall_.direction() - kQuarter;
+  const Place& here = odometer_.reckoned();
+  const double aside = std::max(0.35, past_edge());
+  settles_ = 0;
+  turn_to(direction, State::round);
+  wall_.expect(here.at + aside * unit(direction - kQuarter), direction);
+  after_turn_ = true;
+}
+
+Command Follower::round() {
+  if (front_is_blocked()) {
+    corner_ahead(true);
+    return {};
+  }
+  if (is_wall_again()) {
+    rounds_ = 0;
+    wall_.expect(last_right_.at, wall_.direction());
+    enter(State::follow);
+    return along(options_.speed_m_s);
+  }
+  if (in_state() > 2.0 * options_.distance_m + 0.3) {
+    if (++rounds_ < 4) {
+      const Place& here = odometer_.reckoned();
+      edge_at_ = here.at - options_.distance_m * unit(wall_.direction());
+      turn_right();
+      return {};
+    }
+    rounds_ = 0;
+    enter(State::seek);
+  }
+  return along(options_.speed_m_s);
+}
+
+void Follower::turn_to(double heading, State next) {
+  target_ = heading;
+  next_ = next;
+  enter(State::turn);
+}
+
+Command Follower::turn() {
+  const double left = target_ - odometer_.reckoned().heading;
+  if (std::abs(left) > kTurnDone && seconds_in_state() < 12.0) return turn_by(left);
+  after_turn_ = true;
+  for (MedianFilter& filter : filters_) filter.clear();
+  last_right_.way_m = odometer_.way_m();
+  enter(next_);
+  return {};
+}
+
+Command Follower::turn_by(double left) const {
+  const double rate = std::clamp(3.0 * left, -options_.turn_rad_s, options_.turn_rad_s);
+  return {0.0, std::copysign(std::max(std::abs(rate), 0.35), left)};
+}
+
+/// After a turn the robot is nearly never at 90 degrees (thesis 2.2.4): it reorients by two detectors that see the wall.
+Command Follower::settle() {
+  if (seconds_in_state() < kSettleSeconds) return {};
+  const double side = range_m(kRight), ahead = range_m(kFrontRight);
+  const Place& here = odometer_.reckoned();
+  if (side < kInfinite && ahead < kInfinite) {
+    const Vec2 a = body_.infrared[kRight].point(side), b = body_.infrared[kFrontRight].point(ahead);
+    const double slant = -std::atan2(b.y() - a.y(), b.x() - a.x());
+    if (std::abs(slant) < 0.8) {
+      wall_.expect(here.out(a), here.heading - slant);
+      if (std::abs(slant) > kLeastCorrection && settles_ < kMostCorrections) {
+        ++settles_;
+        turn_to(here.heading - slant, State::settle);
+        return {};
+      }
+    }
+  } else if (side < kInfinite) {
+    wall_.expect(here.out(body_.infrared[kRight].point(side)), wall_.direction());
+  }
+  settles_ = 0;
+  if (!is_charting_) {
+    is_charting_ = true;
+    chart_.note = "";
+    odometer_.align_first(wall_.slant(here));
+    after_turn_ = false;
+  }
+  last_right_.way_m = odometer_.way_m();
+  enter(State::follow);
+  return {};
+}
+
+void Follower::bumped(const Bump& bump) {
+  if (state_ == State::back_off || state_ == State::done || state_ == State::start) return;
+  ++bumps_;
+  confidence_ *= 0.8;
+  interrupted_ = state_;
+  back_is_forward_ = bump.behind && !bump.left && !bump.right;
+  if (state_ == State::turn || state_ == State::settle) {
+    bumps_in_row_ = 0;
+    veer_ = 0.0;
+    back_m_ = 0.06;
+  } else {
+    bumps_in_row_ = odometer_.way_m() - bump_way_ < kBumpRow ? bumps_in_row_ + 1 : 1;
+    bump_way_ = odometer_.way_m();
+    veer_ = bump.left && !bump.right ? -0.6 * kVeer : kVeer;
+    back_m_ = options_.bump_back_m;
+  }
+  enter(State::back_off);
+}
+
+/// Something beside the robot: it keeps off for a while.
+void Follower::scraped(const Bump& bump) {
+  scraped_ = bump.right_side ? -1.0 : 1.0;
+  scraped_until_ = odometer_.way_m() + 0.15;
+}
+
+Command Follower::back_off() {
+  const double way = back_is_forward_ ? in_state() : -in_state();
+  if (way < back_m_ && seconds_in_state() < 3.0) {
+    return {back_is_forward_ ? 0.5 * options_.speed_m_s : -0.5 * options_.speed_m_s, 0.0};
+  }
+  if (interrupted_ == State::turn) {
+    enter(State::turn);
+    return {};
+  }
+  if (veer_ == 0.0 || interrupted_ == State::veer) veer_ = veer_ == 0.0 ? kVeer : veer_;
+  if (bumps_in_row_ >= 3) {
+    bumps_in_row_ = 0;
+    corner_ahead(is_charting_);
+    return {};
+  }
+  turn_to(wall_.direction() + veer_, State::veer);
+  return {};
+}
+
+Command Follower::veer() {
+  if (front_is_blocked()) {
+    corner_ahead(is_charting_);
+    return {};
+  }
+  if (in_state() < kVeerWay) return {0.7 * options_.speed_m_s, 0.0};
+  keep_m_ = std::clamp(wall_.distance(odometer_.reckoned().at), 0.3, 1.2);
+  keep_until_ = odometer_.way_m() + kBumpKeeps;
+  last_right_.way_m = odometer_.way_m();
+  switch (interrupted_) {
+    case State::advance:
+    case State::pass:
+    case State::round:
+    case State::seek:
+      enter(interrupted_);
+      break;
+    default:
+      enter(State::follow);
+  }
+  return {};
+}
+
+double Follower::middle_distance() const {
+  return odometer_.way_m() < keep_until_ ? keep_m_ : options_.distance_m;
+}
+
+Command Follower::along(double speed_m_s) const {
+  const Place& here = odometer_.reckoned();
+  const double beside = wall_.distance(here.at) - middle_distance();
+  const double wanted = std::clamp(-kSteer * beside, -kMostSlant, kMostSlant);
+  double bend = kBend * (wanted - wall_.slant(here));
+  double speed = speed_m_s * std::clamp((range_m(kFront) - options_.front_m) / kFrontBrake, 0.35, 1.0);
+  const double front_right = range_m(kFrontRight);
+  double left = speed * bend;
+  if (front_right < kInfinite) {
+    const double near = kClear + body_.infrared[kFrontRight].point(front_right).y();
+    const double danger = std::clamp(near / 0.2, 0.0, 1.2);
+    speed *= 1.0 - 0.6 * std::min(danger, 1.0);
+    left = danger > 0.0 ? std::max(speed * bend, 1.6 * danger) : speed * bend;
+  }
+  if (odometer_.way_m() < scraped_until_) left -= 0.5 * scraped_;
+  left = std::clamp(left / (1.0 - odometer_.turn_slip()), -options_.turn_rad_s, options_.turn_rad_s);
+  return {speed, left};
+}
+
+void Follower::add_node_here(Kind kind, const Vec2& body) {
+  const WallPoint here{odometer_.reckoned().out(body), odometer_.way_m(), t_ns_, odometer_.charted(), body};
+  add_node(kind, here, here.way_m, 0, std::numeric_limits<double>::quiet_NaN());
+}
+
+void Follower::add_node(Kind kind, const WallPoint& at, double way_m, int direction, double size_m) {
+  if (!is_charting_ || chart_.loop == Loop::closed) return;
+  Node node;
+  node.kind = kind;
+  node.direction = direction;
+  node.size_m = size_m;
+  node.t_ns = at.t_ns;
+  node.body = at.body;
+  node.at = at.from.out(at.body);
+  node.is_hidden = opening_ == Opening::covered && (state_ == State::pass || state_ == State::sweep);
+  node.way_m = way_m;
+  node.quarter = odometer_.quarter(wall_.slant(odometer_.reckoned()));
+  chart_.add(node, confidence_);
+  confidence_ = 1.0;
+  verdict_ = loops_.add(chart_);
+  chart_.loop = verdict_.loop;
+  chart_.note = verdict_.loop == Loop::uncertain
+                    ? "the wall reads like an earlier part of it, and it may be another one"
+                    : "";
+  if (verdict_.loop == Loop::closed) {
+    const std::size_t first = first_sight(verdict_.same, verdict_.same.back().again);
+    closing_ = Closing{chart_.nodes[first].id, at.t_ns, at.body};
+    close_loop(chart_, verdict_.same);
+  }
+  if (chart_.nodes.size() >= static_cast<std::size_t>(options_.most_nodes)) chart_.note = "the chart is full";
+}
+
+}  // namespace hallway::wall_follower

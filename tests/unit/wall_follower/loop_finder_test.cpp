@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "wall_follower/core/loop_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace hallway::wall_follower {
+namespace {
+
+/// A landmark and the way to it from the one before; before the way the wall turns.
+struct Mark {
+  Kind kind;
+  int direction;
+  double size_m;
+  double way_m;
+  int turn = 0;
+};
+
+const double kNan = std::nan("");
+constexpr double kInfinite = INFINITY;
+
+/// One lap: twelve landmarks, four corners, no part like another one.
+const std::vector<Mark> kLap{{Kind::discontinuity, 1, 0.2, 1.3},
+                             {Kind::discontinuity, -1, 0.2, 0.9},
+                             {Kind::corner, 0, kNan, 1.1},
+                             {Kind::discontinuity, 1, kInfinite, 1.6, 1},
+                             {Kind::room, 0, kNan, 0.45},
+                             {Kind::discontinuity, -1, kInfinite, 0.5},
+                             {Kind::corner, 0, kNan, 0.9},
+                             {Kind::discontinuity, -1, 0.3, 2.0, 1},
+                             {Kind::discontinuity, 1, 0.3, 0.6},
+                             {Kind::corner, 0, kNan, 0.7},
+                             {Kind::discontinuity, 1, 0.15, 1.2, 1},
+                             {Kind::corner, 0, kNan, 2.25}};
+
+/// Feeds a finder with landmarks, as a follower would.
+class Walk {
+ public:
+  explicit Walk(const Options& options = {}) : finder(options) {}
+
+  LoopVerdict go(const Mark& mark) {
+    quarter_ += mark.turn;
+    at_ += turned(Vec2(mark.way_m, 0.0), quarter_ * kQuarter);
+    way_ += mark.way_m;
+    Node node;
+    node.kind = mark.kind;
+    node.direction = mark.direction;
+    node.size_m = mark.size_m;
+    node.at = at_;
+    node.way_m = way_;
+    node.quarter = quarter_;
+    chart.add(node, 1.0);
+    return finder.add(chart);
+  }
+
+  Chart chart;
+  LoopFinder finder;
+
+ private:
+  Vec2 at_ = Vec2::Zero();
+  double way_ = 0.0;
+  int quarter_ = 0;
+};
+
+/// The landmarks of some laps, one of which ends where the next one begins.
+std::vector<Mark> laps(int number) {
+  std::vector<Mark> all;
+  for (int lap = 0; lap < number; ++lap) {
+    for (Mark mark : kLap) {
+      if (lap > 0 && all.size() % kLap.size() == 0) mark.turn = 1;
+      all.push_back(mark);
+    }
+  }
+  return all;
+}
+
+/// The step at which a loop was closed; -1: none was.
+int closed_at(const std::vector<Mark>& marks, LoopVerdict* verdict = nullptr) {
+  Walk walk;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const LoopVerdict found = walk.go(marks[i]);
+    if (found.loop != Loop::closed) continue;
+    if (verdict != nullptr) *verdict = found;
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+TEST(LoopFinder, FindsTheSecondLap) {
+  LoopVerdict verdict;
+  const int at = closed_at(laps(2), &verdict);
+  ASSERT_GE(at, 12);
+  EXPECT_LT(at, 20);
+  ASSERT_FALSE(verdict.same.empty());
+  for (const SameLandmark& pair : verdict.same) EXPECT_EQ(pair.again - pair.first, kLap.size());
+}
+
+TEST(LoopFinder, DoesNotCloseWithinALap) {
+  EXPECT_EQ(closed_at(laps(1)), -1);
+}
+
+TEST(LoopFinder, AMissedLandmarkDoesNotHinder) {
+  std::vector<Mark> marks = laps(2);
+  marks[14].way_m += marks[13].way_m;  // the second step is missed in the second lap
+  marks.erase(marks.begin() + 13);
+  LoopVerdict verdict;
+  const int at = closed_at(marks, &verdict);
+  ASSERT_GE(at, 12);
+  EXPECT_EQ(verdict.same.back().again - verdict.same.back().first, kLap.size() - 1);
+}
+
+TEST(LoopFinder, AFalseLandmarkDoesNotHinder) {
+  std::vector<Mark> marks = laps(2);
+  marks[14].way_m -= 0.5;
+  marks.insert(marks.begin() + 14, Mark{Kind::discontinuity, -1, 0.12, 0.5});
+  LoopVerdict verdict;
+  ASSERT_GE(closed_at(marks, &verdict), 12);
+  EXPECT_EQ(verdict.same.back().again - verdict.same.back().first, kLap.size() + 1);
+}
+
+TEST(LoopFinder, OtherSizesAndWaysAreOtherPlaces) {
+  std::vector<Mark> marks = laps(2);
+  for (std::size_t i = kLap.size(); i < marks.size(); ++i) marks[i].way_m *= 1.6;
+  EXPECT_EQ(closed_at(marks), -1);
+  marks = laps(2);
+  for (std::size_t i = kLap.size(); i < marks.size(); ++i) marks[i].direction = -marks[i].direction;
+  EXPECT_EQ(closed_at(marks), -1);
+}
+
+TEST(LoopFinder, WithoutAWholeTurnThereIsNoLoop) {
+  std::vector<Mark> marks;  // bays that are alike, along a straight wall
+  for (int i = 0; i < 20; ++i) {
+    marks.push_back({Kind::discontinuity, 1, 0.2, 1.0});
+    marks.push_back({Kind::discontinuity, -1, 0.2, 1.0});
+  }
+  EXPECT_EQ(closed_at(marks), -1);
+}
+
+TEST(LoopFinder, IsUncertainWhereItReadsAlikeTwice) {
+  // Bays 0.7 m apart before and after a turn round: the last ones read like the first ones at several offsets.
+  std::vector<Mark> marks;
+  for (int i = 0; i < 8; ++i) marks.push_back({Kind::discontinuity, i % 2 == 0 ? 1 : -1, 0.2, 0.35});
+  for (int i = 0; i < 4; ++i)
+    marks.push_back({Kind::corner, 0, kNan, i % 2 == 1 ? 2.5 : i == 0 ? 0.7 : 3.5, i == 0 ? 0 : 1});
+  marks.push_back({Kind::discontinuity, 1, 0.2, 0.35, 1});
+  for (int i = 1; i < 8; ++i) marks.push_back({Kind::discontinuity, i % 2 == 0 ? 1 : -1, 0.2, 0.35});
+  Walk walk;
+  bool was_uncertain = false;
+  for (const Mark& mark : marks) {
+    const LoopVerdict verdict = walk.go(mark);
+    EXPECT_NE(verdict.loop, Loop::closed);
+    EXPECT_TRUE(verdict.same.empty());
+    was_uncertain |= verdict.loop == Loop::uncertain;
+  }
+  EXPECT_TRUE(was_uncertain);
+  // The corners behind the bays decide.
+  bool is_closed = false;
+  for (int i = 0; i < 4 && !is_closed; ++i)
+    is_closed = walk.go({Kind::corner, 0, kNan,
+                         i % 2 == 1 ? 2.5
+                         : i == 0   ? 0.7
+                                    : 3.5,
+                         i == 0 ? 0 : 1})
+                    .loop == Loop::closed;
+  EXPECT_TRUE(is_closed);
+}
+
+TEST(LoopFinder, ClosingKeepsOneLap) {
+  const std::vector<Mark> marks = laps(2);
+  Walk walk;
+  for (const Mark& mark : marks) {
+    const LoopVerdict verdict = walk.go(mark);
+    if (verdict.loop != Loop::closed) continue;
+    close_loop(walk.chart, verdict.same);
+    ASSERT_EQ(walk.chart.nodes.size(), kLap.size() + verdict.same.front().first);
+    ASSERT_EQ(walk.chart.edges.size(), walk.chart.nodes.size());
+    EXPECT_EQ(walk.chart.edges.back().to, walk.chart.nodes[verdict.same.front().first].id);
+    EXPECT_EQ(walk.chart.nodes[verdict.same.front().first].visits, 2U);
+    return;
+  }
+  FAIL();
+}
+
+TEST(LoopFinder, FirstSightsOfLandmarksSeenThrice) {
+  const std::vector<SameLandmark> same{{0, 4}, {1, 5}, {2, 6}, {3, 7}, {4, 8}};
+  EXPECT_EQ(first_sight(same, 8), 0U);
+  EXPECT_EQ(first_sight(same, 7), 3U);
+  EXPECT_EQ(first_sight(same, 2), 2U);
+}
+
+}  // namespace
+}  // namespace hallway::wall_follower
