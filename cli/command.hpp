@@ -43,8 +43,9 @@ void add_log_cut_command(Command& group);
 void add_log_recover_command(Command& group);
 void add_log_convert_command(Command& group);
 
-/// Adds its subcommand to the group `hallway study`.
+/// Each adds its subcommand to the group `hallway study`.
 void add_first_robot_command(Command& group);
+void add_sonar_rooms_command(Command& group);
 
 /// Each adds its subcommand to the group `hallway map`.
 void add_map_check_command(Command& group);

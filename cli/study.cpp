@@ -180,7 +180,7 @@ void add_options(const study::Study& study, Command& command, StudyOptions& opti
   add_shared(command, Shared::kSteps, &options.steps).fallback("the study's");
   command.flag("--quick", &options.quick, "A small size for trying out: seconds, at most two seeds");
   add_shared(command, Shared::kOutFolder, &options.out).fallback("out/study-<name>");
-  add_maps_option(command, options.maps);
+  command.option("--maps", &options.maps, "Folder of the scenarios [beside the program]").value("DIR");
   command.option("--data", &options.data, "Folder of recorded data [$HALLWAY_DATA]").value("DIR");
   add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
   add_limit_options(command, options.isolation);
@@ -208,6 +208,7 @@ void add_study_command(Command& app) {
     command.action([&study, options] { return run_study(study, *options); });
   }
   add_first_robot_command(group);
+  add_sonar_rooms_command(group);
 }
 
 }  // namespace hallway::cli

@@ -11,8 +11,9 @@ namespace hallway::study {
 
 /// An axis of a chart.
 struct Axis {
-  std::string label{};  ///< what is shown, with its unit
-  bool log = false;     ///< logarithmic; what is not above zero is then not shown
+  std::string label{};               ///< what is shown, with its unit
+  bool log = false;                  ///< logarithmic; what is not above zero is then not shown
+  std::vector<std::string> names{};  ///< of the places 0, 1, ... in place of numbers; not logarithmic
 };
 
 /// How a series is drawn.

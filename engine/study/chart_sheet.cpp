@@ -30,14 +30,14 @@ class Layouter {
   explicit Layouter(const Chart& chart) : chart_(chart) {
     sheet_.frame_low = {78.0, 66.0};
     sheet_.frame_high = {kChartWidth_px - 22.0, kChartHeight_px - 52.0 - legend_height()};
-    sheet_.x = range_of(0, chart.x.log);
-    sheet_.y = range_of(1, chart.y.log);
+    sheet_.x = range_of(0, chart.x);
+    sheet_.y = range_of(1, chart.y);
     if (chart.equal_scales) make_scales_equal();
   }
 
   ChartSheet lay_out() {
-    add_axis(0, ticks_of(sheet_.x, chart_.x.log, 9));
-    add_axis(1, ticks_of(sheet_.y, chart_.y.log, 8));
+    add_axis(0, ticks_of(sheet_.x, chart_.x, 9));
+    add_axis(1, ticks_of(sheet_.y, chart_.y, 8));
     add_series();
     add_frame();
     add_texts();
@@ -46,14 +46,15 @@ class Layouter {
   }
 
  private:
-  AxisRange range_of(Eigen::Index axis, bool log) const {
+  AxisRange range_of(Eigen::Index index, const Axis& axis) const {
+    if (!axis.names.empty()) return {-0.5, static_cast<double>(axis.names.size()) - 0.5};
     std::vector<double> values;
     for (const Series& series : chart_.series) {
       for (const Vec2& point : series.points) {
-        if (shown(point)) values.push_back(point[axis]);
+        if (shown(point)) values.push_back(point[index]);
       }
     }
-    return axis_range(values, log);
+    return axis_range(values, axis.log);
   }
 
   /// Widens the range that has the larger scale.
@@ -69,8 +70,12 @@ class Layouter {
     widen(sheet_.y, room.y());
   }
 
-  static std::vector<Tick> ticks_of(const AxisRange& range, bool log, int most) {
-    return log ? log_ticks(range, most) : linear_ticks(range, most);
+  static std::vector<Tick> ticks_of(const AxisRange& range, const Axis& axis, int most) {
+    std::vector<Tick> named;
+    for (const std::string& name : axis.names)
+      named.push_back({static_cast<double>(named.size()), printable(name)});
+    if (!named.empty()) return named;
+    return axis.log ? log_ticks(range, most) : linear_ticks(range, most);
   }
 
   bool shown(const Vec2& point) const {

@@ -41,6 +41,16 @@ std::optional<Interval> mean_interval(std::span<const double> values) {
   return Interval{middle, middle - half, middle + half};
 }
 
+std::optional<Interval> share_interval(std::uint64_t successes, std::uint64_t trials) {
+  if (trials == 0) return std::nullopt;
+  const double n = static_cast<double>(trials), share = static_cast<double>(successes) / n;
+  const double z = inverse_normal_cdf(0.975), z2 = z * z;
+  const double middle = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
+  const double half = z / (1.0 + z2 / n) * std::sqrt(share * (1.0 - share) / n + z2 / (4.0 * n * n));
+  // None and all are in their intervals, whatever rounding says.
+  return Interval{share, successes == 0 ? 0.0 : middle - half, successes == trials ? 1.0 : middle + half};
+}
+
 std::optional<LineFit> fit_line(std::span<const Vec2> points) {
   if (points.size() < 2) return std::nullopt;
   const double n = static_cast<double>(points.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,6 +28,10 @@ double student_975(int freedom);
 
 /// Mean of independent normal values, by Student's distribution; empty for fewer than two.
 std::optional<Interval> mean_interval(std::span<const double> values);
+
+/// The share of successes among independent trials, with Wilson's score interval of 95 % (Wilson, "Probable Inference, the Law of Succession, and Statistical
+/// Inference", 1927), which is within [0, 1] and not empty for 0 or all. Empty for no trials.
+std::optional<Interval> share_interval(std::uint64_t successes, std::uint64_t trials);
 
 /// y = intercept + slope x.
 struct LineFit {

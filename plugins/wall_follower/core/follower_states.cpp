@@ -168,7 +168,9 @@ void Follower::add_opening(Kind kind) {
 
 /// The wall's end was none: something dark stands there.
 void Follower::hide_edge() {
-  if (edge_node_ < chart_.nodes.size()) chart_.nodes[edge_node_].is_hidden = true;
+  if (edge_node_ >= chart_.nodes.size()) return;
+  chart_.nodes[edge_node_].is_hidden = true;
+  ++chart_.changes;
 }
 
 Command Follower::pass() {

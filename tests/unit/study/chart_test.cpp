@@ -56,6 +56,18 @@ TEST(ChartSheet, APointLiesWhereTheTicksSayItDoes) {
   EXPECT_GT(line.points.at(0).y(), line.points.at(1).y());  // up is more
 }
 
+TEST(ChartSheet, NamesAreWhereTheirNumbersWouldBe) {
+  Chart chart = small_chart();
+  chart.x.names = {"here", "there"};
+  chart.series = {{.name = "one", .points = {{0.0, 1.0}, {1.0, 2.0}}}};
+  const ChartSheet sheet = lay_out(chart);
+  const auto texts = texts_of(sheet);
+  const SheetLine line = data_lines(sheet).at(0);
+  EXPECT_NEAR(line.points.at(0).x(), texts.at("here").x(), 1e-9);
+  EXPECT_NEAR(line.points.at(1).x(), texts.at("there").x(), 1e-9);
+  EXPECT_LT(texts.at("here").x(), texts.at("there").x());
+}
+
 TEST(ChartSheet, OnLogarithmicAxesEqualFactorsAreEqualDistances) {
   Chart chart = small_chart();
   chart.x.log = chart.y.log = true;

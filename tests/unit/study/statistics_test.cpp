@@ -58,6 +58,19 @@ TEST(FitLine, ItsIntervalHoldsTheSlopeNineteenTimesOfTwenty) {
   EXPECT_NEAR(held / 2000.0, 0.95, 0.015);  // three standard deviations
 }
 
+TEST(ShareInterval, IsWilsons) {
+  // The example of Newcombe, "Two-sided confidence intervals for the single proportion", 1998, table I.
+  const auto some = share_interval(81, 263);
+  ASSERT_TRUE(some);
+  EXPECT_NEAR(some->low, 0.2553, 5e-5);
+  EXPECT_NEAR(some->high, 0.3662, 5e-5);
+  EXPECT_NEAR(share_interval(0, 20)->high, 0.1611, 5e-5);
+  EXPECT_EQ(share_interval(0, 20)->low, 0.0);
+  EXPECT_EQ(share_interval(29, 29)->high, 1.0);
+  EXPECT_NEAR(share_interval(1, 29)->low, 0.0061, 5e-5);
+  EXPECT_FALSE(share_interval(0, 0));
+}
+
 TEST(FitPower, FindsTheExponent) {
   std::vector<Vec2> points{{0.0, 1.0}, {1.0, -1.0}};  // those do not count
   for (const double x : {1.0, 3.0, 10.0, 50.0}) points.emplace_back(x, 0.2 * std::pow(x, 1.25));
