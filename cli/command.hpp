@@ -8,6 +8,7 @@ namespace hallway::cli {
 
 /// Each adds its command to the program.
 void add_run_command(Command& app);
+void add_watch_command(Command& app);
 void add_robot_command(Command& app);
 void add_sensors_command(Command& app);
 void add_scenario_command(Command& app);

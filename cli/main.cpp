@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     app.footer(kExitStatusHelp);
     app.version("hallway " + hallway::record::version());
     add_run_command(app);
+    add_watch_command(app);
     add_replay_command(app);
     add_serve_command(app);
     add_score_command(app);

@@ -260,15 +260,20 @@ void add_drive(const Rows& row, const sim::DriveCounts& drive) {
 }
 
 int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
-                       const Report& report, const OutputOptions& output) {
+                       const Report& report, const OutputOptions& output, Watcher* watcher) {
   catch_interrupts();
-  run::RunResult result;
-  {
-    Progress progress(report.name, source.iterations(), output.quiet);
-    result =
-        run::execute(source, pipeline, plan,
-                     {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
+  run::RunHooks hooks;
+  hooks.stop = interrupted;
+  std::optional<Progress> progress;
+  if (watcher != nullptr) {
+    watcher->add_to(hooks);
+  } else {
+    progress.emplace(report.name, source.iterations(), output.quiet);
+    hooks.progress = [&](std::uint32_t done) { progress->update(done); };
   }
+  const run::RunResult result = run::execute(source, pipeline, plan, hooks);
+  progress.reset();
+  if (watcher != nullptr) watcher->finish(plan.folder);
   print_failures(result.failures);
   warn_of_missing(result.missing_pictures);
   const Outcome outcome{report, plugin_names(plan.manifest), plan.folder, result};

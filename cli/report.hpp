@@ -9,6 +9,7 @@
 #include "host/pipeline.hpp"
 #include "plugin_report.hpp"
 #include "run/feed/run.hpp"
+#include "watcher.hpp"
 
 namespace hallway::cli {
 
@@ -25,8 +26,9 @@ std::string counted(std::uint64_t count, const char* thing);
 void add_drive(const Rows& row, const sim::DriveCounts& drive);
 
 /// Runs a plan with a progress bar, ended in good order by Ctrl-C or SIGTERM, and prints the short table or the document.
+/// @param watcher  is shown the run, instead of the bar; may be null
 /// @return the exit status
 int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
-                       const Report& report, const OutputOptions& output);
+                       const Report& report, const OutputOptions& output, Watcher* watcher = nullptr);
 
 }  // namespace hallway::cli

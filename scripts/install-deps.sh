@@ -27,7 +27,7 @@ set -euo pipefail
 build=(cmake g++ make ninja-build pkg-config protobuf-compiler fonts-dejavu-core
   # of these libraries only headers, the same on all machines
   libcli11-dev libegl-dev libeigen3-dev libstb-dev nlohmann-json3-dev)
-libraries=(libassimp-dev libedit-dev libembree-dev libfmt-dev libgmp-dev libmuparser-dev libpng-dev libprotobuf-dev
+libraries=(libassimp-dev libedit-dev libembree-dev libfmt-dev libgmp-dev libmuparser-dev libncurses-dev libpng-dev libprotobuf-dev
   libtbb-dev libtinygltf-dev libtomlplusplus-dev libxxhash-dev libzstd-dev zlib1g-dev)
 # what pictures are drawn with, opened at run time: OSMesa where the release has it, and EGL with Mesa's software renderer
 renderers=('libosmesa6?' libegl1 libgl1-mesa-dri)

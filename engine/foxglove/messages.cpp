@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "base/error.hpp"
 #include "foxglove/CompressedImage.pb.h"
@@ -264,6 +265,17 @@ std::string print_log(std::int64_t t_ns, const LogLine& line) {
   log.set_message(line.text);
   log.set_name(line.name);
   return bytes_of(log);
+}
+
+LogLine read_log(std::string_view bytes) {
+  ::foxglove::Log log;
+  if (!std::in_range<int>(bytes.size()) || !log.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+    throw Error(ErrorCode::kBadInput, "a line of a plugin's log that is no foxglove.Log");
+  LogLine line{.level = HW_LOG_DEBUG, .name = log.name(), .text = log.message()};
+  for (const std::uint32_t level : {HW_LOG_INFO, HW_LOG_WARNING, HW_LOG_ERROR}) {
+    if (log.level() == level_of(level)) line.level = level;
+  }
+  return line;
 }
 
 std::string print_picture(std::int64_t t_ns, std::string_view png) {

@@ -116,6 +116,8 @@ std::string print_poses(std::int64_t t_ns, const std::string& frame, std::span<c
 std::string print_scene(std::int64_t t_ns, const Entity& entity);
 /// foxglove.Log.
 std::string print_log(std::int64_t t_ns, const LogLine& line);
+/// Reads it back; its time is that of the message. Throws Error{kBadInput} for bytes that are none.
+LogLine read_log(std::string_view bytes);
 /// foxglove.CompressedImage.
 /// @param png  the bytes of a PNG file
 std::string print_picture(std::int64_t t_ns, std::string_view png);

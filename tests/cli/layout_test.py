@@ -21,7 +21,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 # What one file alone includes, by a pattern of its headers.
 HEAVY = {
     "CLI11": r"CLI/", "Embree": r"embree", "EGL": r"EGL/", "OpenGL": r"GL/", "toml++": r"toml\+\+/", "tinygltf": r"tiny_gltf\.h$",
-    "assimp": r"assimp/", "GMP": r"gmp\.h$", "muParser": r"muParser\.h$", "libedit": r"editline/", "zstd": r"zstd\.h$",
+    "assimp": r"assimp/", "GMP": r"gmp\.h$", "muParser": r"muParser\.h$", "libedit": r"editline/", "ncurses": r"(ncurses|curses|term)\.h$", "zstd": r"zstd\.h$",
     "Protobuf": r"google/protobuf/|.*\.pb\.h$", "ROS bags": r"rosbag/",
 }
 # Who means a kind of sample, and why: rooms, and files of others.
@@ -36,7 +36,7 @@ MEANS_A_KIND = {
     "engine/host/robot_parts.cpp": "checks the intrinsics of kinds", "engine/link/description_parts.cpp": "the intrinsics of kinds on the wire",
     "engine/run/scoring/iteration_maker.cpp": "whose associations are scored", "engine/run/scoring/truth_of.hpp": "the noise of landmarks and planes", "engine/run/scoring/plane_truth.cpp": "planes in points",
     "engine/run/sources/log_source.cpp": "reads tables of points and of planes", "engine/foxglove/view.cpp": "has a schema for each kind that it shows",
-    "engine/run/pictures/history.cpp": "draws points and planes", "engine/run/pictures/scans.cpp": "draws rays",
+    "engine/watch/moment_maker.cpp": "shows rays, points, planes and contact zones", "engine/run/pictures/history.cpp": "draws points and planes", "engine/run/pictures/scans.cpp": "draws rays",
     "engine/run/feed/observation_tables.cpp": "writes tables of points and of planes", "engine/run/feed/found_table.hpp": "writes a table of planes",
     "engine/import/imu_rigs.cpp": "what a rig has", "engine/import/kitti_rig.cpp": "likewise", "engine/import/scan_cloud.cpp": "makes clouds of rays and of points",
     "cli/log_clouds.cpp": "which sensors have clouds", "cli/log_layouts.cpp": "which have an IMU's samples", "cli/log_tables.cpp": "a table for each kind",

@@ -46,14 +46,16 @@ DriveRecord::DriveRecord(const std::filesystem::path& folder, const Source& sour
   contacts_.emplace(folder / files::kContacts, ',', log::kContactColumns);
 }
 
-void DriveRecord::update(Source& source, LogRecorder& recorder) {
+void DriveRecord::update(Source& source, LogRecorder& recorder, const Sink& sink) {
   const std::vector<log::EventRow>& events = source.facts().events;
+  const std::size_t first_event = next_event_;
   for (; next_event_ < events.size() && events[next_event_].t_ns <= recorder.stamp().t_ns; ++next_event_) {
     log::add_row(events_->next_row(), events[next_event_]);
     recorder.record_event(events[next_event_]);
   }
+  const DriveNotes notes = commands_ ? source.take_drive_notes() : DriveNotes();
+  if (sink) sink(notes, std::span(events).subspan(first_event, next_event_ - first_event));
   if (!commands_) return;
-  const DriveNotes notes = source.take_drive_notes();
   for (const log::ContactRow& contact : notes.contacts) {
     log::add_row(contacts_->next_row(), contact);
     recorder.record_contact(contact);

@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 
 #include "host/pipeline.hpp"
+#include "log/drive_tables.hpp"
 #include "log/row_file.hpp"
 #include "run/feed/log_recorder.hpp"
 #include "run/sources/source.hpp"
@@ -21,8 +24,11 @@ class DriveRecord {
  public:
   DriveRecord(const std::filesystem::path& folder, const Source& source);
 
+  /// Who is shown what is written; may be empty.
+  using Sink = std::function<void(const DriveNotes&, std::span<const log::EventRow>)>;
+
   /// Takes what is new in the source until the frame that was recorded last.
-  void update(Source& source, LogRecorder& recorder);
+  void update(Source& source, LogRecorder& recorder, const Sink& sink = {});
   void close();
 
  private:

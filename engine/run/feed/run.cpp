@@ -265,10 +265,11 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
         commands.add(answer.iteration, answer.frame.recorded_command, answer.outputs);
       inputs.add(answer);
       tally.add(answer, epoch);
+      if (hooks.answered) hooks.answered(answer);
     };
     const std::uint64_t restarts = feed.failures().restarts;
     feed.next(result.stopped, give, take);
-    drive.update(source, recorder);
+    drive.update(source, recorder, hooks.driven);
     if (feed.failures().restarts != restarts) epochs.restart();
     events.update();
     if (hooks.progress) hooks.progress(feed.done());

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,10 +44,15 @@ struct RunPlan {
   std::shared_ptr<PluginLog> foxglove{};
 };
 
-/// What the caller is told and asked while a run goes on.
+struct FrameAnswer;  // frame_feed.hpp
+
+/// What the caller is told and asked while a run goes on. Nothing that is done in between changes what the run writes.
 struct RunHooks {
   std::function<void(std::uint32_t done)> progress;  ///< after each iteration
   std::function<bool()> stop;  ///< true ends the run after the iterations so far, in good order
+  std::function<void(const FrameAnswer&)> answered{};  ///< of each iteration, before what follows
+  /// Of each iteration: what the drive obeys from it on, and what happened to the robot until then.
+  std::function<void(const DriveNotes&, std::span<const log::EventRow>)> driven{};
 };
 
 /// A picture that the plan wants and this machine has no renderer for.

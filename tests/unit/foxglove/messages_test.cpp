@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstring>
 
+#include "base/error.hpp"
 #include "foxglove/CompressedImage.pb.h"
 #include "foxglove/FrameTransform.pb.h"
 #include "foxglove/Log.pb.h"
@@ -203,6 +204,16 @@ TEST(FoxgloveMessages, ASchemaRecordIsEnoughToReadItsMessages) {
     EXPECT_EQ(message->GetReflection()->GetUnknownFields(*message).field_count(), 0);
     EXPECT_EQ(message->SerializeAsString().size(), known[i].message.size());
   }
+}
+
+TEST(Messages, LogLinesAreReadBack) {
+  for (const std::uint32_t level : {HW_LOG_DEBUG, HW_LOG_INFO, HW_LOG_WARNING, HW_LOG_ERROR}) {
+    const LogLine line = read_log(print_log(7, {level, "mapper", "loop closed"}));
+    EXPECT_EQ(line.level, level);
+    EXPECT_EQ(line.name, "mapper");
+    EXPECT_EQ(line.text, "loop closed");
+  }
+  EXPECT_THROW(read_log("\xff\xff\xff"), Error);
 }
 
 }  // namespace
