@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "eval/metrics_json.hpp"
+#include "eval/topology_json.hpp"
 #include "run/feed/drive_record.hpp"
 #include "run/feed/manifest.hpp"
 
@@ -158,6 +159,14 @@ void add_scores(const Rows& row, const Metrics& metrics, std::uint64_t submaps) 
   add_relative(row, metrics);
 }
 
+void add_topology(const Rows& row, const eval::TopologyMetrics& topology) {
+  row("places charted",
+      fmt::format("{} of {}, {} missed, {} of another kind, {} false", topology.found, topology.demanded,
+                  topology.missed, topology.wrong_kind, topology.false_nodes + topology.duplicates));
+  row("openings", fmt::format("{} of {} found", topology.openings_found, topology.openings));
+  row("loop", std::string(eval::loop_verdict_name(topology.loop)));
+}
+
 /// The frames of a replay do not depend on its commands.
 std::string comparison_text(const run::CommandComparison& commands) {
   const std::string compared = counted(commands.compared(), "frame") + " with one in the log";
@@ -190,6 +199,7 @@ std::string table_of(const Outcome& outcome) {
   const Rows row{text, 28};
   add_scores(row, metrics, result.submaps);
   if (result.drive) add_drive(row, *result.drive);
+  if (result.topology) add_topology(row, *result.topology);
   if (result.commands) row("commands, open loop", comparison_text(*result.commands));
   add_times(row, "iteration, wall clock", metrics.iteration_ms);
   add_times(row, "iteration, thread CPU", metrics.iteration_cpu_ms);
@@ -217,6 +227,7 @@ Json print_first(const record::Failures& failures) {
 Json metrics_of(const run::RunResult& result) {
   Json metrics = eval::to_json(result.metrics);
   if (result.drive) metrics["drive"] = run::to_json(*result.drive);
+  if (result.topology) metrics["topology"] = eval::to_json(*result.topology);
   return metrics;
 }
 

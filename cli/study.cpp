@@ -178,9 +178,9 @@ void add_options(const study::Study& study, Command& command, StudyOptions& opti
       .range(1u, 1000u)
       .show_default();
   add_shared(command, Shared::kSteps, &options.steps).fallback("the study's");
-  command.flag("--quick", &options.quick, "A small size for trying out: seconds, at most two seeds");
+  command.flag("--quick", &options.quick, "A small size for trying out");
   add_shared(command, Shared::kOutFolder, &options.out).fallback("out/study-<name>");
-  command.option("--maps", &options.maps, "Folder of the scenarios [beside the program]").value("DIR");
+  add_maps_option(command, options.maps);
   command.option("--data", &options.data, "Folder of recorded data [$HALLWAY_DATA]").value("DIR");
   add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
   add_limit_options(command, options.isolation);

@@ -109,7 +109,7 @@ int map_offices(const FirstRobotOptions& options) {
   const fs::path folder = output_folder(options.out, "study-first-robot");
   check_output_folder(folder, "study.json", options.force);
   const study::MappingRequest request = request_of(options, folder);
-  if (request.seeds == 0 && request.offices == 0) refuse("--seeds 0 --offices 0 leave nothing to run");
+  if (request.seeds == 0 && request.offices == 0) refuse("--runs 0 --offices 0 leave nothing to run");
   const batch::Plan plan = study::plan_mapping(request);
   catch_interrupts();
   Progress progress("runs", plan.cells.size(), options.quiet || options.json);
@@ -157,25 +157,21 @@ void add_first_robot_command(Command& group) {
       .value("SEED");
   add_shared(command, Shared::kPlugin, &options.plugin).show_default();
   add_shared(command, Shared::kSetPlugin, &options.settings).repeatable();
-  command.option("--seeds", &options.seeds, "Runs on each named map, with faults and without each")
+  command.option("--runs", &options.seeds, "Runs on each named map, with faults and without each")
       .value("N")
       .range(0u, 10'000u)
       .show_default();
-  command.option("--first-seed", &options.first_seed, "Seed of the first run, and of the first office")
-      .value("S")
-      .show_default();
+  command.option("--first-seed", &options.first_seed, "The first seed").value("S").show_default();
   command.option("--offices", &options.offices, "Generated offices; each is mapped with faults and without")
       .value("N")
       .range(0u, 10'000u)
       .show_default();
   add_shared(command, Shared::kSteps, &options.steps).fallback("the scenarios', 16000");
-  command.flag("--quick", &options.quick, "One seed and one office at most: a minute");
+  command.flag("--quick", &options.quick, "A small size for trying out");
   add_shared(command, Shared::kJobs, &options.jobs).show_default();
   add_shared(command, Shared::kOutFolder, &options.out)
       .fallback("out/study-first-robot; of --make-office a file, office_SEED.map");
-  command
-      .option("--maps", &options.maps, "Folder of the scenarios and of robots/first.map [beside the program]")
-      .value("DIR");
+  add_maps_option(command, options.maps);
   add_output_options(command, options);
   command.footer(
       "Writes findings.csv, rates.csv, runs.csv, charts as SVG and PNG, figure_26.png to figure_28.png, all "

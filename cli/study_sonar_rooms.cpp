@@ -77,15 +77,10 @@ void add_sonar_rooms_command(Command& group) {
       .value("N")
       .range(5u, 100'000u)
       .show_default();
-  command.option("--first-seed", &options.first_seed, "Seed of the first opening of each kind")
-      .value("S")
-      .show_default();
-  command.flag("--quick", &options.quick, "A small size for trying out: seconds");
+  command.option("--first-seed", &options.first_seed, "The first seed").value("S").show_default();
+  command.flag("--quick", &options.quick, "A small size for trying out");
   add_shared(command, Shared::kOutFolder, &options.out).fallback("out/study-sonar-rooms");
-  command
-      .option("--maps", &options.maps,
-              "Folder of cubicles.toml and cubicles_faults.toml [beside the program]")
-      .value("DIR");
+  add_maps_option(command, options.maps);
   add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
   add_output_options(command, options);
   command.footer(

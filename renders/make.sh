@@ -56,4 +56,7 @@ done
 "$hallway" run "$here/../maps/senses.toml" --out "$work/senses" --quiet
 "$hallway" render "$work/senses" --iteration 400 --view top --area 3.4,-0.3,10.6,8.3 --size 760x860 \
   --hide all --show map,body,trail,truth,deskewed --out "$here/sonar.png"
+# The chart of the first robot in an office, with faults, over the plan (thesis 2.2.4, figure 25).
+"$hallway" run "$here/../maps/cubicles_faults.toml" --seed 105 --out "$work/cubicles" --quiet
+"$hallway" render "$work/cubicles" --view top --cut 1.2 --size 1120x720 --hide all --show map,truth,topology --out "$here/topology.png"
 ls -l "$here"/*.png

@@ -8,9 +8,9 @@
 #include "base/spill_list.hpp"
 #include "eval/driven_way.hpp"
 #include "eval/floor_plan.hpp"
-#include "eval/topology.hpp"
 #include "eval/topology_score.hpp"
 #include "geometry/se3.hpp"
+#include "log/topology.hpp"
 
 namespace hallway::eval {
 
@@ -27,7 +27,7 @@ class TopologyEvaluator {
     poses_.push_back({t_ns, planar_part(T_world_body)});
   }
   /// What the plugin says of the whole map now: it replaces what it said before.
-  void set_topology(Topology topology) { topology_ = std::move(topology); }
+  void set_topology(log::Topology topology) { topology_ = std::move(topology); }
 
   /// Empty where the plugin gave no topology.
   std::optional<TopologyScore> score() const;
@@ -40,7 +40,7 @@ class TopologyEvaluator {
 
   FloorPlan plan_;
   SpillList<TimedPose> poses_;
-  std::optional<Topology> topology_;
+  std::optional<log::Topology> topology_;
 };
 
 }  // namespace hallway::eval

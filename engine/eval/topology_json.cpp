@@ -6,9 +6,8 @@
 #include "eval/metrics_json.hpp"
 
 namespace hallway::eval {
-namespace {
 
-const char* name_of(LoopVerdict verdict) {
+std::string_view loop_verdict_name(LoopVerdict verdict) {
   switch (verdict) {
     case LoopVerdict::kOpen:
       return "open";
@@ -21,8 +20,6 @@ const char* name_of(LoopVerdict verdict) {
   }
   return "";
 }
-
-}  // namespace
 
 nlohmann::ordered_json to_json(const TopologyMetrics& metrics) {
   return {{"nodes",
@@ -44,7 +41,7 @@ nlohmann::ordered_json to_json(const TopologyMetrics& metrics) {
            {{"compared", metrics.edges},
             {"not_driven", metrics.edges_not_driven},
             {"length_m", to_json(metrics.length_m)}}},
-          {"loop", name_of(metrics.loop)},
+          {"loop", loop_verdict_name(metrics.loop)},
           {"came_around", metrics.came_around}};
 }
 

@@ -19,17 +19,18 @@ bool is_opening(const TrueNode& node) {
 }
 
 /// Whether a charted node says what a true one is; a sweep says it of every opening.
-bool is_of_kind(const TopologyNode& charted, const TrueNode& truth) {
-  const bool is_hallway = charted.kind == NodeKind::kHallwayEnd || charted.kind == NodeKind::kJunction;
-  const bool is_sweep = charted.kind == NodeKind::kSweep;
-  const bool is_step = charted.kind == NodeKind::kDiscontinuity && charted.direction == truth.direction;
+bool is_of_kind(const log::TopologyNode& charted, const TrueNode& truth) {
+  const bool is_hallway =
+      charted.kind == log::PlaceKind::kHallwayEnd || charted.kind == log::PlaceKind::kJunction;
+  const bool is_sweep = charted.kind == log::PlaceKind::kSweep;
+  const bool is_step = charted.kind == log::PlaceKind::kDiscontinuity && charted.direction == truth.direction;
   switch (truth.kind) {
     case TrueKind::kStep:
       return is_step;
     case TrueKind::kWallEnd:
       return is_step || is_sweep || is_hallway;
     case TrueKind::kRoom:
-      return charted.kind == NodeKind::kRoom || is_sweep;
+      return charted.kind == log::PlaceKind::kRoom || is_sweep;
     case TrueKind::kHallway:
     case TrueKind::kDeadEnd:
       return is_hallway || is_sweep;
@@ -38,18 +39,18 @@ bool is_of_kind(const TopologyNode& charted, const TrueNode& truth) {
 }
 
 /// Whether a charted node is of the same sort as a true one, though not of its kind or direction.
-bool is_of_sort(const TopologyNode& charted, const TrueNode& truth) {
-  return (charted.kind == NodeKind::kDiscontinuity) == (truth.kind == TrueKind::kStep) &&
+bool is_of_sort(const log::TopologyNode& charted, const TrueNode& truth) {
+  return (charted.kind == log::PlaceKind::kDiscontinuity) == (truth.kind == TrueKind::kStep) &&
          truth.kind != TrueKind::kDeadEnd;
 }
 
 /// Compares the nodes of a chart, by their ids, with the true ones.
 class NodeScorer {
  public:
-  NodeScorer(const std::vector<TopologyNode>& charted, const TopologyTruth& truth, const DrivenWay& way,
+  NodeScorer(const std::vector<log::TopologyNode>& charted, const TopologyTruth& truth, const DrivenWay& way,
              double gate_m)
       : charted_(charted), truth_(truth), gate_m_(gate_m), is_assigned_(truth.nodes.size(), false) {
-    for (const TopologyNode& node : charted) {
+    for (const log::TopologyNode& node : charted) {
       ScoredNode& scored = scored_.emplace_back();
       scored.id = node.id;
       if (const auto pose = way.at(node.t_ns)) scored.place = pose->world({node.x_m, node.y_m});
@@ -60,10 +61,10 @@ class NodeScorer {
     // A sweep gives way to a node that says which kind the opening is.
     assign_nodes(is_of_kind, [&](std::size_t i, const TrueNode& truth) {
       if (!truth.is_demanded) return NodeVerdict::kAccepted;
-      const bool is_open = is_opening(truth) && charted_[i].kind == NodeKind::kSweep;
+      const bool is_open = is_opening(truth) && charted_[i].kind == log::PlaceKind::kSweep;
       return is_open ? NodeVerdict::kUndecided : NodeVerdict::kFound;
     });
-    assign_nodes([](const TopologyNode& charted,
+    assign_nodes([](const log::TopologyNode& charted,
                     const TrueNode& truth) { return truth.is_demanded && is_of_sort(charted, truth); },
                  [](std::size_t, const TrueNode&) { return NodeVerdict::kWrongKind; });
     for (std::size_t i = 0; i < scored_.size(); ++i) {
@@ -94,7 +95,7 @@ class NodeScorer {
       if (scored_[i].true_node) continue;
       for (std::size_t k = 0; k < truth_.nodes.size(); ++k) {
         if (is_assigned_[k] || !may_be(charted_[i], truth_.nodes[k])) continue;
-        const bool is_sweep = charted_[i].kind == NodeKind::kSweep;
+        const bool is_sweep = charted_[i].kind == log::PlaceKind::kSweep;
         if (const auto distance_m = near(i, truth_.nodes[k]))
           candidates.push_back({i, k, *distance_m + (is_sweep ? gate_m_ : 0.0)});
       }
@@ -110,7 +111,7 @@ class NodeScorer {
     }
   }
 
-  const std::vector<TopologyNode>& charted_;
+  const std::vector<log::TopologyNode>& charted_;
   const TopologyTruth& truth_;
   double gate_m_;
   std::vector<bool> is_assigned_;  ///< by true node
@@ -132,17 +133,17 @@ std::optional<double> least_way(const std::vector<double>& from, const std::vect
 /// The true ways of edges, from the passes of charted nodes.
 class EdgeScorer {
  public:
-  EdgeScorer(const std::vector<TopologyNode>& charted, const DrivenWay& way, double gate_m)
+  EdgeScorer(const std::vector<log::TopologyNode>& charted, const DrivenWay& way, double gate_m)
       : way_(way), gate_m_(gate_m) {
-    for (const TopologyNode& node : charted) nodes_[node.id] = &node;
+    for (const log::TopologyNode& node : charted) nodes_[node.id] = &node;
   }
 
-  ScoredEdge score(const TopologyEdge& edge) {
+  ScoredEdge score(const log::TopologyEdge& edge) {
     const double slack_m = edge.from == edge.to ? 0.0 : kSamePass_m;
     return {edge.from, edge.to, edge.length_m, least_way(passes(edge.from), passes(edge.to), slack_m)};
   }
   /// Whether an edge leads to a node that was met no later than the one where it begins; false where the chart does not have both.
-  bool closes(const TopologyEdge& edge) const {
+  bool closes(const log::TopologyEdge& edge) const {
     const auto from = nodes_.find(edge.from), to = nodes_.find(edge.to);
     return from != nodes_.end() && to != nodes_.end() && to->second->t_ns <= from->second->t_ns;
   }
@@ -158,15 +159,15 @@ class EdgeScorer {
 
   const DrivenWay& way_;
   double gate_m_;
-  std::map<std::uint32_t, const TopologyNode*> nodes_;
+  std::map<std::uint32_t, const log::TopologyNode*> nodes_;
   std::map<std::uint32_t, std::vector<double>> passes_;
 };
 
-LoopVerdict judge_loop(const Topology& chart, const TopologyTruth& truth, EdgeScorer& edges,
+LoopVerdict judge_loop(const log::Topology& chart, const TopologyTruth& truth, EdgeScorer& edges,
                        const ScoreSettings& settings) {
-  if (chart.loop == LoopState::kOpen) return LoopVerdict::kOpen;
-  if (chart.loop == LoopState::kUncertain) return LoopVerdict::kUncertain;
-  const auto is_right = [&](const TopologyEdge& edge) {
+  if (chart.loop == log::LoopState::kOpen) return LoopVerdict::kOpen;
+  if (chart.loop == log::LoopState::kUncertain) return LoopVerdict::kUncertain;
+  const auto is_right = [&](const log::TopologyEdge& edge) {
     if (!edges.closes(edge)) return true;
     const std::optional<double> true_m = edges.score(edge).true_m;
     return true_m && std::abs(edge.length_m - *true_m) <= settings.gate_m + settings.length_share * *true_m;
@@ -218,11 +219,11 @@ void count_nodes(const TopologyTruth& truth, TopologyScore& score) {
   metrics.missed = score.missed.size();
 }
 
-void score_edges(const Topology& chart, EdgeScorer& edges, TopologyScore& score) {
+void score_edges(const log::Topology& chart, EdgeScorer& edges, TopologyScore& score) {
   std::map<std::uint32_t, bool> is_true;
   for (const ScoredNode& node : score.nodes) is_true[node.id] = node.true_node.has_value();
   std::vector<double> errors;
-  for (const TopologyEdge& edge : chart.edges) {
+  for (const log::TopologyEdge& edge : chart.edges) {
     if (!is_true[edge.from] || !is_true[edge.to]) continue;
     const ScoredEdge& scored = score.edges.emplace_back(edges.score(edge));
     if (scored.true_m) errors.push_back(std::abs(scored.length_m - *scored.true_m));
@@ -236,10 +237,10 @@ void score_edges(const Topology& chart, EdgeScorer& edges, TopologyScore& score)
 
 }  // namespace
 
-TopologyScore score_topology(const Topology& chart, const TopologyTruth& truth, const DrivenWay& way,
+TopologyScore score_topology(const log::Topology& chart, const TopologyTruth& truth, const DrivenWay& way,
                              const ScoreSettings& settings) {
-  std::vector<TopologyNode> nodes = chart.nodes;
-  std::ranges::sort(nodes, {}, &TopologyNode::id);
+  std::vector<log::TopologyNode> nodes = chart.nodes;
+  std::ranges::sort(nodes, {}, &log::TopologyNode::id);
   TopologyScore score;
   score.nodes = NodeScorer(nodes, truth, way, settings.gate_m).score();
   count_nodes(truth, score);

@@ -8,8 +8,8 @@
 
 #include "eval/driven_way.hpp"
 #include "eval/error_statistics.hpp"
-#include "eval/topology.hpp"
 #include "eval/topology_truth.hpp"
+#include "log/topology.hpp"
 
 namespace hallway::eval {
 
@@ -92,7 +92,7 @@ struct ScoreSettings {
 /// demanded openings of the other kind and to demanded steps of the other direction. A closed loop is right if the robot came around and
 /// the way of every edge that leads to a node met no later than its begin was driven, with a length within `gate_m` and `length_share`. The order
 /// of nodes and edges does not matter; ids are unique. O(n * poses) for n charted nodes, and assign().
-TopologyScore score_topology(const Topology& chart, const TopologyTruth& truth, const DrivenWay& way,
+TopologyScore score_topology(const log::Topology& chart, const TopologyTruth& truth, const DrivenWay& way,
                              const ScoreSettings& settings = {});
 
 }  // namespace hallway::eval

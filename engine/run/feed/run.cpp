@@ -13,6 +13,7 @@
 #include "base/file.hpp"
 #include "eval/evaluator.hpp"
 #include "eval/metrics_json.hpp"
+#include "eval/topology_json.hpp"
 #include "record/answer_tables.hpp"
 #include "record/epoch_table.hpp"
 #include "record/final_map.hpp"
@@ -33,6 +34,7 @@
 #include "run/pictures/record.hpp"
 #include "run/scoring/iteration_maker.hpp"
 #include "run/scoring/plane_truth.hpp"
+#include "run/scoring/topology_scorer.hpp"
 #include "run/scoring/truth_of.hpp"
 
 namespace hallway::run {
@@ -40,18 +42,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool last_puts(const host::Pipeline& pipeline, std::uint32_t output) {
+  if (pipeline.facts().empty()) return false;
+  const std::vector<std::uint32_t>& outputs = pipeline.facts().back().info.outputs;
+  return std::ranges::find(outputs, output) != outputs.end();
+}
+
 /// Takes down what comes back of the frames, and scores it.
 class Tally {
  public:
-  /// @param maps_planes  whether what the pipeline maps is planes
   /// @param folder  where what is scored at the end is kept
-  Tally(const Source& source, bool maps_planes, const fs::path& folder)
-      : iterations_(source), evaluator_(truth_for(source, maps_planes), folder) {
+  Tally(const Source& source, const host::Pipeline& pipeline, const fs::path& folder)
+      : iterations_(source), evaluator_(truth_for(source, maps_planes(pipeline)), folder) {
     if (evaluator_.planes() != nullptr) plane_truth_.emplace(source);
+    if (last_puts(pipeline, HW_OUTPUT_TOPOLOGY)) topologies_.emplace(source, folder);
   }
 
   /// @param map_epoch  the part of the map that the answer's pose is in
   void add(const FrameAnswer& answer, std::optional<std::uint64_t> map_epoch) {
+    if (topologies_) topologies_->add(answer);
     if (!answer.was_called) return;
     eval::Iteration iteration = iterations_.make(answer);
     iteration.map_epoch = map_epoch;
@@ -71,6 +80,14 @@ class Tally {
   void finish(std::span<const eval::JoinedEpoch> joined) { evaluator_.finish(joined); }
   const eval::Evaluator& evaluator() const { return evaluator_; }
 
+  /// Of the topology that holds at the end; none where it or the truth is not known.
+  std::optional<eval::TopologyMetrics> score(const std::optional<log::Topology>& topology) {
+    if (!topologies_ || !topology) return std::nullopt;
+    topologies_->set_topology(*topology);
+    const std::optional<eval::TopologyScore> score = topologies_->score();
+    return score ? std::optional(score->metrics) : std::nullopt;
+  }
+
  private:
   static eval::Truth truth_for(const Source& source, bool maps_planes) {
     eval::Truth truth = truth_of(source);
@@ -80,7 +97,8 @@ class Tally {
 
   IterationMaker iterations_;
   eval::Evaluator evaluator_;
-  std::optional<PlaneTruth> plane_truth_;  ///< where maps of planes are scored
+  std::optional<PlaneTruth> plane_truth_;     ///< where maps of planes are scored
+  std::optional<TopologyScorer> topologies_;  ///< where topologies are
 };
 
 /// Writes what is given and what is true, frame by frame.
@@ -216,9 +234,7 @@ void write_attachments(const std::filesystem::path& folder, const std::vector<At
 }
 
 bool maps_planes(const host::Pipeline& pipeline) {
-  if (pipeline.facts().empty()) return false;
-  const std::vector<std::uint32_t>& outputs = pipeline.facts().back().info.outputs;
-  return std::find(outputs.begin(), outputs.end(), HW_OUTPUT_MAPPED_PLANES) != outputs.end();
+  return last_puts(pipeline, HW_OUTPUT_MAPPED_PLANES);
 }
 
 nlohmann::ordered_json to_json(const std::vector<MissingPicture>& missing) {
@@ -240,7 +256,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   DriveRecord drive(folder, source);
   CommandComparison commands;
   InputTables inputs(folder, plan, source);
-  Tally tally(source, maps_planes(pipeline), folder);
+  Tally tally(source, pipeline, folder);
   FrameFeed feed(source, pipeline, plan);
   const bool has_plugins = !pipeline.specs().empty();
   EventView events(plan, feed, recorder, has_plugins);
@@ -303,6 +319,8 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   nlohmann::ordered_json metrics = eval::to_json(result.metrics);
   result.drive = source.drive_counts();
   if (result.drive) metrics["drive"] = to_json(*result.drive);
+  result.topology = tally.score(refined.topology);
+  if (result.topology) metrics["topology"] = eval::to_json(*result.topology);
   record::write_json(folder / files::kMetrics, metrics);
   if (commands.compared() > 0) result.commands = commands;
   nlohmann::ordered_json manifest = complete_manifest(plan, source, result, feed.done());

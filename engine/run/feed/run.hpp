@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "eval/metrics.hpp"
+#include "eval/topology_score.hpp"
 #include "host/pipeline.hpp"
 #include "record/failures.hpp"
 #include "record/manifest.hpp"
@@ -64,7 +65,9 @@ struct MissingPicture {
 /// How a run went.
 struct RunResult {
   eval::Metrics metrics;
-  std::optional<sim::DriveCounts> drive;        ///< of a robot that obeys
+  std::optional<sim::DriveCounts> drive;  ///< of a robot that obeys
+  /// Where the last plugin charts one and the walls are known.
+  std::optional<eval::TopologyMetrics> topology;
   std::optional<CommandComparison> commands;    ///< where the plan wants it and the log has any
   std::uint64_t submaps = 0;                    ///< of the map at the end
   std::vector<std::filesystem::path> pictures;  ///< under their final names

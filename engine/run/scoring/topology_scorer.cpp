@@ -14,7 +14,7 @@ void TopologyScorer::add(const FrameAnswer& answer) {
   if (evaluator_ && pose && answer.frame.orientation_known) evaluator_->add_pose(answer.frame.t_ns(), *pose);
 }
 
-void TopologyScorer::set_topology(eval::Topology topology) {
+void TopologyScorer::set_topology(log::Topology topology) {
   if (evaluator_) evaluator_->set_topology(std::move(topology));
 }
 

@@ -19,7 +19,7 @@ class TopologyScorer {
   /// A frame, answered or not: its true pose, if that has an orientation.
   void add(const FrameAnswer& answer);
   /// The topology that the last plugin has now; none without a plan.
-  void set_topology(eval::Topology topology);
+  void set_topology(log::Topology topology);
 
   /// Empty without a plan or a topology.
   std::optional<eval::TopologyScore> score() const;

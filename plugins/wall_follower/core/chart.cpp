@@ -13,6 +13,7 @@ void Chart::add(Node node, double confidence) {
         {last.id, node.id, std::max(0.0, node.way_m - last.way_m), confidence, node.quarter - last.quarter});
   }
   nodes.push_back(node);
+  ++changes;
 }
 
 }  // namespace hallway::wall_follower

@@ -55,6 +55,7 @@ struct Chart {
   std::vector<Edge> edges;
   Loop loop = Loop::open;
   std::string note;
+  std::uint32_t changes = 0;  ///< how often its landmarks or ways changed
 
   /// Adds a landmark behind the last one. @param confidence  of the way to it
   void add(Node node, double confidence);

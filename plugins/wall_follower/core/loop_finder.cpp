@@ -159,6 +159,7 @@ void close_loop(Chart& chart, const std::vector<SameLandmark>& same) {
   chart.nodes.resize(joint.again);
   chart.edges.resize(joint.again - 1);
   chart.edges.push_back(back);
+  ++chart.changes;
 }
 
 }  // namespace hallway::wall_follower

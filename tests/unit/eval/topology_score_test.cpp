@@ -24,11 +24,11 @@ struct Case {
         truth(find_truth(test::plan_of(boundary, motion), way)),
         chart(test::chart_of(truth, way)) {}
 
-  TopologyMetrics metrics(const Topology& of) const { return score_topology(of, truth, way).metrics; }
+  TopologyMetrics metrics(const log::Topology& of) const { return score_topology(of, truth, way).metrics; }
 
   DrivenWay way;
   TopologyTruth truth;
-  Topology chart;  ///< all that is true
+  log::Topology chart;  ///< all that is true
 };
 
 Case niche() {
@@ -41,8 +41,8 @@ Case staggered() {
   return {test::staggered_corridor(), test::staggered_drive()};
 }
 
-TopologyNode& node_of(Topology& chart, std::uint32_t id) {
-  return *std::ranges::find(chart.nodes, id, &TopologyNode::id);
+log::TopologyNode& node_of(log::Topology& chart, std::uint32_t id) {
+  return *std::ranges::find(chart.nodes, id, &log::TopologyNode::id);
 }
 
 /// A room of 6 x 4 m with two niches that look alike, across from each other, and the way once around in it. The niches' edges are abreast after 0.9,
@@ -111,11 +111,11 @@ TEST(TopologyScore, CountsOfTheThreeMapsByHand) {
 TEST(TopologyScore, MissedAndFalseNodes) {
   Case of = doorways();
   node_of(of.chart, 10).kind =
-      NodeKind::kDiscontinuity;  // the room is not charted, but a step nearer at its far side, twice
+      log::PlaceKind::kDiscontinuity;  // the room is not charted, but a step nearer at its far side, twice
   node_of(of.chart, 10).direction = -1;
   node_of(of.chart, 10).x_m += 1.0;
   // Nothing is at the middle of the wall between the openings.
-  TopologyNode middle = node_of(of.chart, 11);
+  log::TopologyNode middle = node_of(of.chart, 11);
   middle.id = 90;
   middle.x_m += 2.5;
   of.chart.nodes.push_back(middle);
@@ -134,9 +134,9 @@ TEST(TopologyScore, MissedAndFalseNodes) {
 
 TEST(TopologyScore, WrongKindsAndSweepsOfOpenings) {
   Case of = doorways();
-  node_of(of.chart, 10).kind = NodeKind::kHallwayEnd;  // the room
-  node_of(of.chart, 13).kind = NodeKind::kSweep;       // the first hallway
-  node_of(of.chart, 17).kind = NodeKind::kJunction;    // the second one
+  node_of(of.chart, 10).kind = log::PlaceKind::kHallwayEnd;  // the room
+  node_of(of.chart, 13).kind = log::PlaceKind::kSweep;       // the first hallway
+  node_of(of.chart, 17).kind = log::PlaceKind::kJunction;    // the second one
   const TopologyMetrics m = of.metrics(of.chart);
   EXPECT_EQ(m.wrong_kind, 1u);
   EXPECT_EQ(m.undecided, 1u);
@@ -157,7 +157,7 @@ TEST(TopologyScore, StepOfTheOtherDirectionIsOfTheWrongKind) {
 TEST(TopologyScore, OptionalNodesMayBeMissing) {
   Case of = doorways();
   std::erase_if(of.chart.nodes,
-                [&](const TopologyNode& node) { return !of.truth.nodes[node.id - 10].is_demanded; });
+                [&](const log::TopologyNode& node) { return !of.truth.nodes[node.id - 10].is_demanded; });
   const TopologyMetrics m = of.metrics(of.chart);
   EXPECT_EQ(m.found, 3u);
   EXPECT_EQ(m.missed + m.accepted, 0u);
@@ -175,7 +175,7 @@ TEST(TopologyScore, PlaceAnywhereInAnOpeningIsRight) {
 TEST(TopologyScore, ShiftedChart) {
   for (const double shift_m : {0.5, 1.1}) {
     Case of = niche();
-    for (TopologyNode& node : of.chart.nodes) node.y_m += shift_m;
+    for (log::TopologyNode& node : of.chart.nodes) node.y_m += shift_m;
     const TopologyMetrics m = of.metrics(of.chart);
     EXPECT_EQ(m.found, shift_m < 0.75 ? 2u : 0u);
     EXPECT_EQ(m.false_nodes, shift_m < 0.75 ? 0u : 2u);
@@ -187,7 +187,7 @@ TEST(TopologyScore, ShiftedChart) {
 
 TEST(TopologyScore, MirroredChartIsFalse) {
   const auto mirrored = [](Case of) {
-    for (TopologyNode& node : of.chart.nodes) node.y_m = -node.y_m;
+    for (log::TopologyNode& node : of.chart.nodes) node.y_m = -node.y_m;
     return of.metrics(of.chart);
   };
   for (const Case& of : {niche(), two_niches(), staggered()}) {
@@ -236,19 +236,19 @@ TEST(TopologyScore, LoopClosedAtALikePlaceIsWrong) {
   ASSERT_EQ(of.truth.nodes.size(), 4u);
   EXPECT_EQ(of.metrics(of.chart).loop, LoopVerdict::kRightly);
   // The second niche is mistaken for the first one: half of the loop, 7.4 m from the niche's end to its begin.
-  std::erase_if(of.chart.nodes, [](const TopologyNode& node) { return node.id > 11; });
+  std::erase_if(of.chart.nodes, [](const log::TopologyNode& node) { return node.id > 11; });
   of.chart.edges = {{10, 11, 1.0}, {11, 10, 7.4}};
   EXPECT_EQ(of.metrics(of.chart).loop, LoopVerdict::kWrongly);
   EXPECT_EQ(of.metrics(of.chart).missed, 2u);
-  of.chart.loop = LoopState::kUncertain;
+  of.chart.loop = log::LoopState::kUncertain;
   EXPECT_EQ(of.metrics(of.chart).loop, LoopVerdict::kUncertain);
-  of.chart.loop = LoopState::kOpen;
+  of.chart.loop = log::LoopState::kOpen;
   EXPECT_EQ(of.metrics(of.chart).loop, LoopVerdict::kOpen);
 }
 
 TEST(TopologyScore, LoopThatWasNotDrivenIsClosedWrongly) {
   for (Case of : {doorways(), staggered()}) {
-    of.chart.loop = LoopState::kClosed;
+    of.chart.loop = log::LoopState::kClosed;
     EXPECT_EQ(of.metrics(of.chart).loop, LoopVerdict::kWrongly);
   }
   // Half of the loop of the niche room, closed to where it began.
@@ -256,14 +256,14 @@ TEST(TopologyScore, LoopThatWasNotDrivenIsClosedWrongly) {
   half.forward(3.0).left().forward(3.2).left().forward(3.2);
   Case of{test::niche_room(), half};
   of.chart.edges.push_back({11, 10, 11.8});
-  of.chart.loop = LoopState::kClosed;
+  of.chart.loop = log::LoopState::kClosed;
   EXPECT_EQ(of.metrics(of.chart).loop, LoopVerdict::kWrongly);
 }
 
 TEST(TopologyScore, OrderDoesNotMatter) {
   for (const Case& of : {niche(), doorways(), staggered(), two_niches()}) {
-    Topology chart = of.chart;
-    for (TopologyNode& node : chart.nodes) node.x_m += 0.1 * (node.id % 3);
+    log::Topology chart = of.chart;
+    for (log::TopologyNode& node : chart.nodes) node.x_m += 0.1 * (node.id % 3);
     const TopologyScore before = score_topology(chart, of.truth, of.way);
     std::ranges::reverse(chart.nodes);
     std::ranges::reverse(chart.edges);
@@ -280,8 +280,8 @@ TEST(TopologyScore, OrderDoesNotMatter) {
 TEST(TopologyScore, RigidMotionChangesNothing) {
   const Case here(test::doorway_hall(), test::doorway_drive());
   const Case there(test::doorway_hall(), test::doorway_drive(), {-2.1, {40, -7}});
-  Topology chart = here.chart;
-  for (TopologyNode& node : chart.nodes) node.x_m += 0.1 * (node.id % 3);
+  log::Topology chart = here.chart;
+  for (log::TopologyNode& node : chart.nodes) node.x_m += 0.1 * (node.id % 3);
   const TopologyMetrics a = here.metrics(chart), b = there.metrics(chart);
   EXPECT_EQ(a.found, b.found);
   EXPECT_EQ(a.accepted, b.accepted);

@@ -9,8 +9,8 @@
 
 #include "eval/driven_way.hpp"
 #include "eval/floor_plan.hpp"
-#include "eval/topology.hpp"
 #include "eval/topology_truth.hpp"
+#include "log/topology.hpp"
 
 namespace hallway::test {
 
@@ -167,20 +167,20 @@ inline Drive drive_around(const std::vector<Vec2>& polygon, double clear_m) {
 
 /// The chart that says what is true, demanded or not: its nodes are seen at the frame nearest to the first pass, its edges lead from each
 /// pass to the next one.
-inline eval::Topology chart_of(const eval::TopologyTruth& truth, const eval::DrivenWay& way) {
+inline log::Topology chart_of(const eval::TopologyTruth& truth, const eval::DrivenWay& way) {
   const auto kind_of = [](eval::TrueKind kind) {
     switch (kind) {
       case eval::TrueKind::kRoom:
-        return eval::NodeKind::kRoom;
+        return log::PlaceKind::kRoom;
       case eval::TrueKind::kHallway:
       case eval::TrueKind::kDeadEnd:
-        return eval::NodeKind::kHallwayEnd;
+        return log::PlaceKind::kHallwayEnd;
       default:
-        return eval::NodeKind::kDiscontinuity;
+        return log::PlaceKind::kDiscontinuity;
     }
   };
-  eval::Topology chart;
-  chart.loop = truth.came_around ? eval::LoopState::kClosed : eval::LoopState::kOpen;
+  log::Topology chart;
+  chart.loop = truth.came_around ? log::LoopState::kClosed : log::LoopState::kOpen;
   for (std::size_t i = 0; i < truth.passes.size(); ++i) {
     const eval::TruePass& pass = truth.passes[i];
     const auto id = static_cast<std::uint32_t>(pass.node + 10);
@@ -189,7 +189,7 @@ inline eval::Topology chart_of(const eval::TopologyTruth& truth, const eval::Dri
       chart.edges.push_back({static_cast<std::uint32_t>(before.node + 10), id, pass.way_m - before.way_m});
     }
     bool is_new = true;
-    for (eval::TopologyNode& node : chart.nodes) {
+    for (log::TopologyNode& node : chart.nodes) {
       if (node.id != id) continue;
       is_new = false;
       ++node.visits;

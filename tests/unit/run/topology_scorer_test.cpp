@@ -96,14 +96,14 @@ TEST(TopologyScorer, ScoresAChartOfASimulatedDrive) {
   const Along along(kSensors);
   SimulatedSource source(along.simulator());
   TopologyScorer scorer(source, {});
-  eval::Topology chart;
+  log::Topology chart;
   SourceFrame frame;
   for (std::uint32_t i = 0; i < source.iterations(); ++i) {
     source.read(i, frame);
     scorer.add({.iteration = i, .frame = frame});
     if (i != 15 && i != 25) continue;
     chart.nodes.push_back({.id = i,
-                           .kind = eval::NodeKind::kDiscontinuity,
+                           .kind = log::PlaceKind::kDiscontinuity,
                            .direction = i == 15 ? 1 : -1,
                            .size_m = 0.3,
                            .t_ns = frame.t_ns(),
