@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <type_traits>
@@ -75,6 +77,18 @@ CLI::Validator range_of(std::pair<double, double> limits) {
   } else {
     throw Error(ErrorCode::kInternal, "a range belongs to a number");
   }
+}
+
+/// CLI11 reads -1 as 2^64 - 1, and all that is larger than that likewise.
+CLI::Validator is_natural() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        errno = 0;
+        std::strtoull(text.c_str(), nullptr, 0);
+        return text.starts_with('-') || errno == ERANGE ? "Value " + text + " not in range 0 to 2^64 - 1"
+                                                        : "";
+      },
+      "");
 }
 
 /// `--out ''` is a mistake, such as a shell variable without a value, and not the same as no --out.
@@ -150,6 +164,7 @@ class Parser {
     } else {
       CLI::Option* added = app.add_option(option.names(), *target, option.help());
       if (option.limits()) added->check(range_of<typename Scalar<T>::Type>(*option.limits()));
+      if constexpr (std::is_same_v<typename Scalar<T>::Type, std::uint64_t>) added->check(is_natural());
       return added;
     }
   }

@@ -21,6 +21,8 @@ struct Row {
 
 /// The largest double below 2^63: seeds of files are TOML's integers, which end there.
 constexpr double kMostSeed = 9223372036854774784.0;
+/// Seeds that follow the first are allowed, too.
+constexpr double kMostFirstSeed = 9e18;
 
 constexpr Row kRows[] = {
     {Shared::kPlugin, "--plugin", "NAME|FILE[:KEY=VALUE,...]",
@@ -49,6 +51,7 @@ constexpr Row kRows[] = {
     {Shared::kOutLog, "--out", "FILE|DIR", "File to write if it ends in .mcap or --to is tum, else a folder"},
     {Shared::kForce, "--force", "", "Replace earlier output"},
     {Shared::kSeed, "--seed", "N", "Seed of all random numbers", 0, kMostSeed},
+    {Shared::kFirstSeed, "--first-seed", "S", "The first seed", 0, kMostFirstSeed},
     {Shared::kSteps, "--steps", "N", "Number of frames", 1, 99'999'999},
     {Shared::kThreads, "--threads", "N", "Number of threads; results do not depend on it", 1, 1024},
     {Shared::kJobs, "--jobs", "N", "Number of parallel runs; times are comparable with 1", 1, 1024},

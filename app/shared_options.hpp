@@ -25,6 +25,7 @@ enum class Shared {
   kOutLog,     ///< --out FILE|DIR
   kForce,
   kSeed,
+  kFirstSeed,
   kSteps,
   kThreads,
   kJobs,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -20,6 +21,8 @@
 
 namespace hallway::cli {
 namespace {
+
+constexpr double kMostOfficeSeed = 9e18;
 
 struct FirstRobotOptions : OutputOptions {
   std::optional<std::uint64_t> office_seed;
@@ -71,7 +74,8 @@ study::MappingRequest request_of(const FirstRobotOptions& options, const fs::pat
 }
 
 /// Figures 26 to 28 of the thesis: what was mapped in the simulation, the section with one cubicle doubled, and what was mapped of it with faults.
-void draw_figures(const batch::Plan& plan, batch::RunnerSetup setup) {
+void draw_figures(const batch::Plan& plan, const std::vector<batch::Result>& results,
+                  const batch::RunnerSetup& setup) {
   struct Figure {
     const char* file;
     const char* map;
@@ -87,6 +91,7 @@ void draw_figures(const batch::Plan& plan, batch::RunnerSetup setup) {
       return one.labels[0].value == figure.map && one.labels[2].value == figure.faults;
     });
     if (cell == plan.cells.end()) continue;
+    if (!results[static_cast<std::size_t>(cell - plan.cells.begin())].good()) continue;
     const batch::PictureRequest picture{.name = "figure", .arguments = figure.arguments};
     const std::vector<std::string> failed =
         batch::redraw_pictures({.cells = {*cell}, .pictures = {picture}}, setup, {});
@@ -103,6 +108,21 @@ std::string rates_text(const study::Outcome& outcome, const fs::path& folder) {
     if (table.file == "rates") text += print_text(table) + "\n";
   }
   return text + fmt::format("written to {}\n", path_text(folder));
+}
+
+/// One warning for the runs that failed alike. @return exit status: where no run is good that of the first, which says most
+int report_failed_runs(const std::vector<batch::Result>& results) {
+  std::map<std::string, std::vector<std::string>> runs_by_problem;
+  for (const batch::Result& result : results) {
+    if (!result.good()) runs_by_problem[result.problem].push_back(result.name);
+  }
+  for (const auto& [problem, names] : runs_by_problem) {
+    const std::string others = names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "";
+    print_warning("{}{}: {}", names.front(), others, problem);
+  }
+  if (runs_by_problem.empty()) return 0;
+  const bool any_good = std::ranges::any_of(results, &batch::Result::good);
+  return any_good ? exit_status(ErrorCode::kPluginFault) : results.front().status;
 }
 
 int map_offices(const FirstRobotOptions& options) {
@@ -124,7 +144,7 @@ int map_offices(const FirstRobotOptions& options) {
   std::vector<study::MappingRun> runs;
   for (const batch::Result& result : results)
     runs.push_back(study::read_mapping_run(result, folder / "cells" / result.name));
-  draw_figures(plan, setup);
+  draw_figures(plan, results, setup);
   const study::Outcome outcome = study::conclude_mapping(runs);
   Json document = study::write_outcome(
       study::first_robot_study(),
@@ -132,13 +152,7 @@ int map_offices(const FirstRobotOptions& options) {
       folder);
   document["folder"] = path_text(folder);
   options.print(document, rates_text(outcome, folder));
-  bool all_good = true;
-  for (const batch::Result& result : results) {
-    if (result.good()) continue;
-    all_good = false;
-    print_warning("{}: {}", result.name, result.problem);
-  }
-  return all_good ? 0 : exit_status(ErrorCode::kPluginFault);
+  return report_failed_runs(results);
 }
 
 int run_first_robot(const FirstRobotOptions& options) {
@@ -154,14 +168,15 @@ void add_first_robot_command(Command& group) {
       .option("--make-office", &options.office_seed,
               "Only write an office with this seed: a block of cubicles, a hallway round it, cubicles on its "
               "other side")
-      .value("SEED");
+      .value("SEED")
+      .range(0u, kMostOfficeSeed);
   add_shared(command, Shared::kPlugin, &options.plugin).show_default();
   add_shared(command, Shared::kSetPlugin, &options.settings).repeatable();
   command.option("--runs", &options.seeds, "Runs on each named map, with faults and without each")
       .value("N")
       .range(0u, 10'000u)
       .show_default();
-  command.option("--first-seed", &options.first_seed, "The first seed").value("S").show_default();
+  add_shared(command, Shared::kFirstSeed, &options.first_seed).show_default();
   command.option("--offices", &options.offices, "Generated offices; each is mapped with faults and without")
       .value("N")
       .range(0u, 10'000u)
@@ -179,7 +194,7 @@ void add_first_robot_command(Command& group) {
       "as study.json, and a run folder of each run in cells/.\n"
       "With --make-office it writes NAME.map and, beside it, NAME.toml, NAME_faults.toml and "
       "NAME_robot.map.\n"
-      "Exit status: 0 done; 5 a run failed, the others count.\n"
+      "Exit status: 0 done; 5 a run failed, the others count; that of the first run where all failed.\n"
       "Example: hallway study first-robot --quick --out out/first-robot\n"
       "         hallway study first-robot --make-office 7 --out office.map");
 }

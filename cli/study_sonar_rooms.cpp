@@ -77,7 +77,7 @@ void add_sonar_rooms_command(Command& group) {
       .value("N")
       .range(5u, 100'000u)
       .show_default();
-  command.option("--first-seed", &options.first_seed, "The first seed").value("S").show_default();
+  add_shared(command, Shared::kFirstSeed, &options.first_seed).show_default();
   command.flag("--quick", &options.quick, "A small size for trying out");
   add_shared(command, Shared::kOutFolder, &options.out).fallback("out/study-sonar-rooms");
   add_maps_option(command, options.maps);

@@ -36,6 +36,11 @@ TEST(Usage, NumberThatIsNone) {
   expect_failure(hallway({"run", "x.toml", "--seed", "many"}), 2, {"--seed"});
 }
 
+TEST(Usage, SeedThatIsNegativeOrTooLarge) {
+  for (const char* seed : {"-1", "-18446744073709551615", "18446744073709551616"})
+    expect_failure(hallway({"serve", "x.toml", "--loss-seed", seed}), 2, {"--loss-seed", "not in range"});
+}
+
 TEST(Usage, SettingWithoutValue) {
   const SmallWorld world;
   expect_failure(world.run({"--set", "seed"}), 2, {"KEY=VALUE"});

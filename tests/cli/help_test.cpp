@@ -45,10 +45,16 @@ TEST(Help, OfLog) {
 }
 
 TEST(Help, OfStudies) {
-  expect_help({"study", "--help"}, {"constants", "binning", "dynamic", "figure-eight", "density", "map-size",
-                                    "straight", "stationary", "victoria-park", "forty-loops", "Example"});
+  expect_help({"study", "--help"},
+              {"constants", "binning", "dynamic", "figure-eight", "density", "map-size", "straight",
+               "stationary", "victoria-park", "forty-loops", "first-robot", "sonar-rooms", "Example"});
   expect_help({"study", "straight", "--help"},
               {"--plugin", "--seeds", "--steps", "--quick", "--out", "--maps", "150, 151", "Example"});
+  expect_help({"study", "first-robot", "--help"},
+              {"--make-office", "--plugin", "--runs", "--first-seed", "--offices", "--jobs", "--out",
+               "figure_26.png", "office_SEED.map", "Exit status", "Example"});
+  expect_help({"study", "sonar-rooms", "--help"},
+              {"--openings", "--first-seed", "--threads", "--out", "parameters.csv", "Example"});
 }
 
 TEST(Help, OfRender) {

@@ -96,16 +96,21 @@ batch::Plan plan_mapping(const MappingRequest& request) {
   for (const char* map : kNamedMaps) {
     for (const bool faults : {false, true}) {
       const fs::path scenario = request.maps / (std::string(map) + (faults ? "_faults.toml" : ".toml"));
+      if (request.seeds > 0) read_file(scenario);  // else every run of it would fail
       for (std::uint64_t i = 0; i < request.seeds; ++i)
         plan.cells.push_back(cell_of({map, "", faults, request.first_seed + i, scenario}, request.arguments));
     }
   }
-  if (request.offices > 0) make_folder(request.out / "offices");
+  const fs::path robot = request.maps / "robots/first.map";
+  if (request.offices > 0) {
+    read_file(robot);
+    make_folder(request.out / "offices");
+  }
   std::vector<batch::Cell> with_faults;
   for (std::uint64_t i = 0; i < request.offices; ++i) {
     const std::uint64_t seed = request.first_seed + i;
-    const auto files = write_office(seed, request.out / "offices" / fmt::format("office_{}.map", seed),
-                                    request.maps / "robots/first.map");
+    const auto files =
+        write_office(seed, request.out / "offices" / fmt::format("office_{}.map", seed), robot);
     const MappingCell cell{kGeneratedOffices, fmt::to_string(seed), false, seed, files[1]};
     plan.cells.push_back(cell_of(cell, request.arguments));
     with_faults.push_back(cell_of({cell.map, cell.office, true, seed, files[2]}, request.arguments));
