@@ -34,6 +34,7 @@ std::string coverage_text(const std::optional<double>& share, const char* of) {
 }
 
 std::string verdict_text(const Metrics& metrics) {
+  if (!metrics.lost_iterations) return "none: the plugin gives no poses";
   if (!metrics.verdict) return "unknown: too few true poses";
   std::string text = eval::name_of(*metrics.verdict);
   if (metrics.diverged_at)
@@ -47,7 +48,9 @@ std::string verdict_text(const Metrics& metrics) {
 
 void add_path(const Rows& row, const Metrics& metrics) {
   row("verdict", verdict_text(metrics));
-  row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
+  std::string iterations = fmt::to_string(metrics.iterations);
+  if (metrics.lost_iterations) iterations += fmt::format(", {} without a pose", *metrics.lost_iterations);
+  row("iterations", iterations);
   if (metrics.parts.count > 1 || metrics.parts.restarts > 0)
     row("parts of the map",
         fmt::format("{} with {}; scored is the one with most poses, {} of {} iterations{}",

@@ -99,7 +99,7 @@ std::string end_text(const run::ServeResult& result, double give_up_s) {
 
 std::string rmse_text(const eval::Metrics& metrics) {
   const auto& rmse = metrics.position_rmse_m.aligned;
-  const std::uint64_t posed = metrics.iterations - metrics.lost_iterations;
+  const std::uint64_t posed = metrics.iterations - metrics.lost_iterations.value_or(metrics.iterations);
   return fmt::format("{} over {} of {} frames with a pose", rmse ? fmt::format("{:.4f} m", *rmse) : "unknown",
                      posed, metrics.iterations);
 }

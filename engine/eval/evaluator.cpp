@@ -159,7 +159,7 @@ Metrics Evaluator::metrics(std::span<const MapLandmark> online,
   Metrics metrics;
   metrics.iterations = iterations_;
   metrics.observations = associations_.observations();
-  metrics.lost_iterations = lost_;
+  metrics.lost_iterations = truth_.gives_poses ? std::optional(lost_) : std::nullopt;
   metrics.landmarks_mapped = count_mapped(online);
   metrics.associations_none = associations_.none();
   PathParts::Summary summary = path_.summary(joined);
@@ -203,7 +203,7 @@ void Evaluator::score_path(const PathParts::Summary& summary, const PartPath& pa
                                      Alignment::kRigid, truth_.noise_m);
   if (metrics.divergence && metrics.divergence->first)
     metrics.diverged_at = path.frame_of(*metrics.divergence->first);
-  metrics.verdict = judge(summary.poses, metrics.divergence);
+  if (truth_.gives_poses) metrics.verdict = judge(summary.poses, metrics.divergence);
   const TrajectoryScore& score = path.score;
   metrics.position_pairs = score.pairs();
   metrics.position_rmse_m = score.position_rmse_m();

@@ -44,13 +44,15 @@ struct Iteration {
   std::optional<double> cpu_ms{};   ///< CPU time of the thread that called them
 };
 
-/// What is known about the world beside the iterations.
+/// What is known beside the iterations: of the world, and of what the plugin has to answer.
 struct Truth {
   bool has_identities = false;                          ///< the observations name their true landmarks
   std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
   /// Where the true planes are, each id once; empty where the plugin maps no planes.
   std::optional<std::vector<log::TruePlane>> planes{};
   double noise_m = 0.0;  ///< of the sensor: the largest of its axes, standard deviation
+  bool gives_poses =
+      true;  ///< false: the plugin has no poses to give, so that the robot is not lost without them
 };
 
 /// Scores a run while it goes on. Memory grows with the landmarks and the different pairs (map landmark, true landmark) that observations have joined, and,

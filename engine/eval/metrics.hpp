@@ -60,15 +60,19 @@ struct MapParts {
 struct Metrics {
   std::uint64_t iterations = 0;
   std::uint64_t observations = 0;
-  std::uint64_t lost_iterations = 0;  ///< iterations without an estimated pose
+  /// Iterations without an estimated pose; empty where no plugin has poses to give.
+  std::optional<std::uint64_t> lost_iterations = 0;
 
-  std::optional<PathVerdict> verdict;        ///< empty where the true path is not known
-  std::optional<Divergence> divergence;      ///< from three pairs of poses on
+  std::optional<PathVerdict> verdict;    ///< empty where the true path is not known, or no plugin gives poses
+  std::optional<Divergence> divergence;  ///< from three pairs of poses on
   std::optional<std::uint64_t> diverged_at;  ///< the first iteration over a limit
   MapParts parts;                            ///< what is said of poses below is of the scored part alone
 
-  /// Share of the iterations with a pose in the scored part; empty without iterations.
-  std::optional<double> pose_coverage() const { return share(parts.scored_iterations, iterations); }
+  /// Share of the iterations with a pose in the scored part; empty without iterations, and where no plugin gives poses.
+  std::optional<double> pose_coverage() const {
+    if (!lost_iterations) return std::nullopt;
+    return share(parts.scored_iterations, iterations);
+  }
   /// Share of the observed true landmarks that own a mapped one; empty where that is not known, where there are none, and where
   /// what was mapped are planes.
   std::optional<double> landmark_coverage() const {

@@ -79,7 +79,7 @@ Json to_json(const Metrics& metrics) {
   position_rmse["refitted_aligned"] = number(metrics.position_rmse_refitted_aligned_m);
   return {{"schema", "hallway.metrics/1"},
           {"iterations", metrics.iterations},
-          {"lost_iterations", metrics.lost_iterations},
+          {"lost_iterations", number(metrics.lost_iterations)},
           {"verdict", metrics.verdict ? Json(name_of(*metrics.verdict)) : Json(nullptr)},
           {"coverage",
            {{"poses", number(metrics.pose_coverage())},

@@ -69,8 +69,9 @@ void add_accuracy(const std::vector<RunGroup>& groups, const std::string& figure
       findings.add(figures, group.name, fmt::format("runs {}", eval::name_of(verdict)),
                    static_cast<double>(count), "1");
     }
-    add("iterations without a pose", "1", [](const Trace& trace) {
-      return std::optional<double>(static_cast<double>(trace.metrics.lost_iterations));
+    add("iterations without a pose", "1", [](const Trace& trace) -> std::optional<double> {
+      if (!trace.metrics.lost_iterations) return std::nullopt;
+      return static_cast<double>(*trace.metrics.lost_iterations);
     });
     add("misassociated observations, share", "1", [](const Trace& trace) -> std::optional<double> {
       if (!trace.metrics.association_errors || trace.metrics.observations == 0) return std::nullopt;

@@ -84,7 +84,7 @@ Outcome conclude_victoria_park(const std::vector<StudyRun>& runs, const Request&
       findings.add(interval.figures, group.name, what, value, unit);
     };
     add("scans", count(metrics.iterations));
-    add("scans without a pose", count(metrics.lost_iterations));
+    if (metrics.lost_iterations) add("scans without a pose", count(*metrics.lost_iterations));
     add("scans with a pose, share", metrics.pose_coverage());
     add("diverged", count(metrics.verdict == eval::PathVerdict::kDiverged ? 1 : 0));
     add("lost", count(metrics.verdict == eval::PathVerdict::kLost ? 1 : 0));

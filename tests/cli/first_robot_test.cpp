@@ -7,6 +7,7 @@
 
 #include "cli/batch_results.hpp"
 #include "cli/small_world.hpp"
+#include "support/data.hpp"
 
 namespace hallway::test {
 namespace {
@@ -95,6 +96,23 @@ TEST(FirstRobotStudy, WritesTablesChartsAndFiguresTheSameEveryTime) {
   EXPECT_NE(again.out.find("two_loops"), std::string::npos) << again.out;
   expect_same_files(a, b);
   expect_same_files(a / "offices", b / "offices");
+}
+
+TEST(FirstRobotRun, IsNotLostWithoutPoses) {
+  const TempFolder folder;
+  const fs::path out = folder.path() / "run";
+  const Ended ended =
+      hallway({"run", source_folder() / "maps/cubicles.toml", "--steps", "40", "--quiet", "--out", out});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const Json metrics = read_json(out / "metrics.json");
+  EXPECT_TRUE(metrics.at("verdict").is_null());
+  EXPECT_TRUE(metrics.at("lost_iterations").is_null());
+  EXPECT_TRUE(metrics.at("coverage").at("poses").is_null());
+  const Ended printed =
+      hallway({"run", source_folder() / "maps/cubicles.toml", "--steps", "40", "--force", "--out", out});
+  EXPECT_NE(printed.out.find("none: the plugin gives no poses"), std::string::npos) << printed.out;
+  EXPECT_EQ(printed.out.find("lost"), std::string::npos) << printed.out;
+  EXPECT_EQ(printed.out.find("without a pose"), std::string::npos) << printed.out;
 }
 
 TEST(FirstRobotStudy, HasTheStatusOfItsRunsWhereAllFail) {

@@ -295,6 +295,8 @@ TEST_P(Hosts, ServingScoresThePathThatCameBack) {
     EXPECT_EQ(here.at(member), there.at(member)) << member;
   EXPECT_EQ(here.value("drive", Json()), there.value("drive", Json())) << "of a robot that obeys";
   const bool has_poses = GetParam() != "em" && GetParam() != kWanderer && GetParam() != kWallFollower;
+  EXPECT_EQ(here.at("lost_iterations").is_number(), has_poses);
+  EXPECT_TRUE(has_poses || (here.at("verdict").is_null() && there.at("verdict").is_null()));
   EXPECT_EQ(here.at("position_rmse_m").at("first_pose").is_number(), has_poses);
   EXPECT_EQ(here.at("position_rmse_m").at("first_pose"), there.at("position_rmse_m").at("first_pose"));
   if (plugin() != "slam_point") return;

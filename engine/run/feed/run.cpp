@@ -53,7 +53,7 @@ class Tally {
  public:
   /// @param folder  where what is scored at the end is kept
   Tally(const Source& source, const host::Pipeline& pipeline, const fs::path& folder)
-      : iterations_(source), evaluator_(truth_for(source, maps_planes(pipeline)), folder) {
+      : iterations_(source), evaluator_(truth_for(source, pipeline), folder) {
     if (evaluator_.planes() != nullptr) plane_truth_.emplace(source);
     if (last_puts(pipeline, HW_OUTPUT_TOPOLOGY)) topologies_.emplace(source, folder);
   }
@@ -89,9 +89,12 @@ class Tally {
   }
 
  private:
-  static eval::Truth truth_for(const Source& source, bool maps_planes) {
+  static eval::Truth truth_for(const Source& source, const host::Pipeline& pipeline) {
     eval::Truth truth = truth_of(source);
-    if (!maps_planes) truth.planes.reset();
+    if (!maps_planes(pipeline)) truth.planes.reset();
+    // What a plugin that could not be made would have given is not known.
+    truth.gives_poses =
+        pipeline.facts().size() < pipeline.specs().size() || last_puts(pipeline, HW_OUTPUT_POSE);
     return truth;
   }
 

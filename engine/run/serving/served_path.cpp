@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "eval/evaluator.hpp"
 #include "eval/metrics_json.hpp"
@@ -52,6 +53,8 @@ void ServedPath::add_frame(const SourceFrame& frame) {
 }
 
 void ServedPath::add_answer(const link::Answer& answer) {
+  if (answer.status != HW_ANSWER_FAILED) ++answers_;
+  if (answer.pose) ++poses_;
   if (!answer.pose && !answer.command) return;
   Frame frame = frames_[answer.sequence];
   if (answer.pose) {
@@ -82,7 +85,9 @@ std::optional<Pose> ServedPath::true_pose(const Frame& frame) const {
 }
 
 eval::Metrics ServedPath::write(const Source& source, const std::optional<sim::DriveCounts>& drive) const {
-  eval::Evaluator evaluator(path_truth(source), folder_);
+  eval::Truth truth = path_truth(source);
+  truth.gives_poses = poses_ > 0 || answers_ == 0;
+  eval::Evaluator evaluator(std::move(truth), folder_);
   log::RowFile trajectory(folder_ / record::files::kTrajectory, ' ', {});
   std::optional<log::CommandFile> commands;
   std::optional<log::RowFile> pose_times;

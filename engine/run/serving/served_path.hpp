@@ -54,6 +54,8 @@ class ServedPath {
   std::optional<Pose> true_pose(const Frame& frame) const;
 
   std::filesystem::path folder_;
+  std::uint64_t answers_ = 0;  ///< of calls that did not fail
+  std::uint64_t poses_ = 0;    ///< answers with a pose, also one that is lost
   SpillList<Frame> frames_;
   SpillList<SampleEnd> ends_;
 };

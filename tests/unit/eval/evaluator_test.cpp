@@ -232,6 +232,25 @@ TEST(Evaluator, AnEstimateWithoutTruthIsNotLost) {
   EXPECT_FALSE(metrics.position_rmse_m.first_pose);
 }
 
+TEST(Evaluator, APluginThatHasNoPosesToGiveIsNotLost) {
+  for (const bool gives_poses : {true, false}) {
+    Truth truth;
+    truth.gives_poses = gives_poses;
+    Evaluator evaluator(truth);
+    for (int i = 0; i < 4; ++i) {
+      Iteration iteration;
+      iteration.T_world_body = at(i, i * i, 0);
+      evaluator.add(iteration);
+    }
+    const Metrics metrics = evaluator.metrics({}, std::nullopt);
+    EXPECT_EQ(metrics.iterations, 4u);
+    EXPECT_EQ(metrics.verdict == PathVerdict::kLost, gives_poses);
+    EXPECT_EQ(metrics.verdict.has_value(), gives_poses);
+    EXPECT_EQ(metrics.lost_iterations, gives_poses ? std::optional<std::uint64_t>(4) : std::nullopt);
+    EXPECT_EQ(metrics.pose_coverage(), gives_poses ? std::optional<double>(0.0) : std::nullopt);
+  }
+}
+
 TEST(Evaluator, TimesAreSummarizedEach) {
   Evaluator evaluator(Truth{});
   for (const double wall_ms : {1.0, 2.0, 6.0}) {

@@ -62,6 +62,19 @@ TEST(RunPicture, OfADivergedRunHasNoErrors) {
   EXPECT_NE(markers_of(compose_picture(record, everything()), "mapped landmarks"), nullptr);
 }
 
+TEST(RunPicture, ItsSubtitleSaysHowTheRunWent) {
+  Record record;
+  record.run = {{"name", "office"}, {"iterations", 40}};
+  record.metrics = {{"verdict", "lost"}, {"coverage", {{"poses", 0.0}}}};
+  EXPECT_EQ(compose_picture(record, everything()).subtitle, "lost: 40 iterations, 0.0 % with a pose");
+  record.metrics = {{"verdict", nullptr}, {"coverage", {{"poses", nullptr}}}};  // a plugin without poses
+  record.topology.emplace();
+  record.topology->loop = log::LoopState::kClosed;
+  record.topology->nodes.resize(2);
+  EXPECT_EQ(compose_picture(record, everything()).subtitle,
+            "40 iterations, topology of 2 nodes, loop closed");
+}
+
 TEST(RunPicture, SmallErrorsAreDrawnLongerByWhatTheLegendSays) {
   const render::Picture picture = compose_picture(square_record(0.005), everything());
   ASSERT_NE(errors_of(picture), nullptr);
