@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/utf8.hpp"
+#include "base/xml_text.hpp"
 
 namespace hallway::editor {
 namespace {
@@ -20,48 +21,6 @@ constexpr std::array<std::uint16_t, 95> kAdvance{
     667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
     222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584};
 constexpr double kOtherAdvance = 556.0;
-
-void append_utf8(std::string& out, std::uint32_t code) {
-  const auto tail = [&](unsigned shift) { out += static_cast<char>(0x80u | ((code >> shift) & 0x3Fu)); };
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0u | (code >> 6));
-    tail(0);
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xE0u | (code >> 12));
-    tail(6);
-    tail(0);
-  } else {
-    out += static_cast<char>(0xF0u | (code >> 18));
-    tail(12);
-    tail(6);
-    tail(0);
-  }
-}
-
-/// Whether XML 1.0 allows a character.
-bool is_xml(std::uint32_t code) {
-  return (code >= 0x20 && code < 0xD800) || (code >= 0xE000 && code < 0xFFFE) || code >= 0x10000;
-}
-
-std::string xml_text(std::string_view utf8) {
-  std::string out;
-  for (const std::uint32_t code : code_points(utf8)) {
-    if (code == '&') {
-      out += "&amp;";
-    } else if (code == '<') {
-      out += "&lt;";
-    } else if (code == '>') {
-      out += "&gt;";
-    } else if (code == '"') {
-      out += "&quot;";
-    } else {
-      append_utf8(out, is_xml(code) ? code : 0xFFFD);
-    }
-  }
-  return out;
-}
 
 std::string hex(const SheetColour& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "base/xml_text.hpp"
 #include "log/json_text.hpp"
 #include "log/topology_json.hpp"
 
@@ -17,29 +18,8 @@ namespace {
 
 constexpr const char* kSchema = "hallway.topology/1";
 
-/// A text as the content of an element. What XML has no way to write becomes a space.
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      default:
-        safe += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-    }
-  }
-  return safe;
-}
-
 std::string data(const char* key, std::string_view value) {
-  return fmt::format("      <data key=\"{}\">{}</data>\n", key, escaped(value));
+  return fmt::format("      <data key=\"{}\">{}</data>\n", key, xml_text(value));
 }
 
 std::string data(const char* key, double value) {

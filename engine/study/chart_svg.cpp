@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/xml_text.hpp"
 #include "study/chart.hpp"
 #include "study/chart_sheet.hpp"
 
@@ -9,29 +10,6 @@ namespace {
 
 std::string colour_text(const render::Rgb& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
 }
 
 /// Writes the pieces of a sheet as elements.
@@ -73,7 +51,7 @@ class SvgWriter {
         "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>\n",
         words.at.x(), words.at.y(), words.size_px, colour_text(words.colour),
         kAnchors[static_cast<int>(words.anchor)], words.bold ? " font-weight=\"bold\"" : "",
-        escaped(words.text));
+        xml_text(words.text));
   }
 
   std::string finish() { return text_ + "</svg>\n"; }

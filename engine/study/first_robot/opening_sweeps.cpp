@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "sense/standing_body.hpp"
 #include "sim/scenario.hpp"
 #include "trace/scene.hpp"
 
@@ -123,19 +124,6 @@ void add_box(const PlanBox& box, trace::TriangleMesh& mesh) {
   }
 }
 
-class Standing final : public sense::Trajectory {
- public:
-  explicit Standing(const Pose& pose) : pose_(pose) {}
-  Pose pose_at(std::int64_t) const override { return pose_; }
-  sense::Kinematics kinematics_at(std::int64_t, double, sense::Side) const override {
-    return {.T_world_body = pose_};
-  }
-  std::vector<double> breaks_in(std::int64_t, std::int64_t) const override { return {}; }
-
- private:
-  Pose pose_;
-};
-
 sense::SurfaceMaterial surface(const map::MaterialTable& table, const char* name) {
   return {.name = name, .echo_angle_rad = table.of(name).echo_deg * kRadPerDegree};
 }
@@ -190,8 +178,8 @@ LabelledSweep sweep_opening(const LabelledOpening& opening, const OpeningSonar& 
   const trace::Scene scene(mesh, trace::Backend::kEmbree);
   const sense::Surfaces surfaces(mesh, {sonar.wall, sonar.furniture}, of_triangle);
   const sense::SonarSensor sensor(sonar.sonar, scene, surfaces, seed);
-  const Standing body({Quat(Eigen::AngleAxisd(opening.slant_rad, Vec3::UnitZ())),
-                       Vec3(opening.along_m, opening.wall_m, 0.0)});
+  const sense::StandingBody body({Quat(Eigen::AngleAxisd(opening.slant_rad, Vec3::UnitZ())),
+                                  Vec3(opening.along_m, opening.wall_m, 0.0)});
   sense::SonarReading reading;
   sense::SonarTruth truth;
   sensor.read(static_cast<std::uint32_t>(opening.kind), 0, body, 1, reading, truth);

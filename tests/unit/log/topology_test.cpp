@@ -143,7 +143,7 @@ TEST(Topology, GraphmlHasTheNodesAndEdges) {
   EXPECT_EQ(count("<data key=\"size_m\">"), 2u) << "of discontinuities only";
   EXPECT_EQ(count("<data key=\"size_m\">INF</data>"), 1u);
   EXPECT_EQ(count("source=\"n4294967295\" target=\"n4\""), 1u);
-  EXPECT_EQ(count("<data key=\"note\">a &amp; &lt;b&gt;\n\"ä\"</data>"), 1u);
+  EXPECT_EQ(count("<data key=\"note\">a &amp; &lt;b&gt;\n&quot;ä&quot;</data>"), 1u);
   EXPECT_EQ(count("<data key=\"loop\">closed</data>"), 1u);
 }
 

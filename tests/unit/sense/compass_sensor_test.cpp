@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "sense/standing_body.hpp"
 #include "support/errors.hpp"
 #include "unit/sense/moving_sensor.hpp"
 
@@ -29,7 +30,7 @@ struct Sight {
 
 Sight sight_of(const CompassSpec& spec, const Pose& pose, std::uint32_t number = 0) {
   Sight made;
-  CompassSensor(spec, 1).read(number, 0, test::StandingBody(pose), made.reading, made.truth);
+  CompassSensor(spec, 1).read(number, 0, sense::StandingBody(pose), made.reading, made.truth);
   return made;
 }
 
@@ -85,7 +86,7 @@ TEST(CompassSensor, NoiseIsAsDeclaredAndTheBiasIsTheSensors) {
   double sum = 0.0, squares = 0.0;
   Sight made;
   for (std::uint32_t k = 0; k < kReadings; ++k) {
-    sensor.read(k, 0, test::StandingBody(Pose()), made.reading, made.truth);
+    sensor.read(k, 0, sense::StandingBody(Pose()), made.reading, made.truth);
     const double error = made.reading.heading_rad - made.truth.bias_rad;
     sum += error;
     squares += error * error;
@@ -96,7 +97,7 @@ TEST(CompassSensor, NoiseIsAsDeclaredAndTheBiasIsTheSensors) {
   double biases = 0.0;
   constexpr std::uint64_t kSeeds = 20'000;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    CompassSensor(spec, seed).read(0, 0, test::StandingBody(Pose()), made.reading, made.truth);
+    CompassSensor(spec, seed).read(0, 0, sense::StandingBody(Pose()), made.reading, made.truth);
     biases += made.truth.bias_rad * made.truth.bias_rad;
   }
   EXPECT_NEAR(biases / kSeeds, 0.0025, 3.0 * 0.0025 * std::sqrt(2.0 / kSeeds));

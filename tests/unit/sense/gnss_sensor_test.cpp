@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "sense/standing_body.hpp"
 #include "support/errors.hpp"
 #include "unit/sense/moving_sensor.hpp"
 
@@ -42,7 +43,7 @@ struct Fix {
 
 Fix fix_of(const GnssSensor& sensor, const Pose& pose, std::uint32_t number = 0) {
   Fix made;
-  sensor.read(number, 0, test::StandingBody(pose), made.reading, made.truth);
+  sensor.read(number, 0, sense::StandingBody(pose), made.reading, made.truth);
   return made;
 }
 

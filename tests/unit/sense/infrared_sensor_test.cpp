@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sense/light_path.hpp"
+#include "sense/standing_body.hpp"
 #include "support/errors.hpp"
 #include "unit/sense/moving_sensor.hpp"
 #include "unit/trace/shapes.hpp"
@@ -73,7 +74,7 @@ double range_of(const InfraredSpec& spec, const Slabs& place, std::uint32_t numb
   InfraredReading reading;
   InfraredTruth truth;
   InfraredSensor(spec, place.scene, place.surfaces, 1)
-      .read(number, 0, test::StandingBody(Pose()), reading, truth);
+      .read(number, 0, sense::StandingBody(Pose()), reading, truth);
   return reading.range_m.at(0);
 }
 
@@ -92,7 +93,7 @@ TEST(InfraredSensor, IsBlindToBlackWhichHidesWhatIsBehind) {
     InfraredReading reading;
     InfraredTruth truth;
     InfraredSensor(plain_infrared(), place.scene, place.surfaces, 1)
-        .read(0, 0, test::StandingBody(Pose()), reading, truth);
+        .read(0, 0, sense::StandingBody(Pose()), reading, truth);
     EXPECT_EQ(truth.what.at(0) == InfraredTruth::kNothing, distance > 0.8) << distance;
   }
 }
@@ -113,7 +114,7 @@ TEST(InfraredSensor, GlassLetsItsShareThrough) {
   InfraredTruth truth;
   double behind = 0.0, back = 0.0;
   for (std::uint32_t k = 0; k < kReadings; ++k) {
-    sensor.read(k, 0, test::StandingBody(Pose()), reading, truth);
+    sensor.read(k, 0, sense::StandingBody(Pose()), reading, truth);
     const double range = reading.range_m.at(0);
     if (range > 0.4) {
       EXPECT_NEAR(range, 0.5, 1e-9);
@@ -146,7 +147,7 @@ TEST(InfraredSensor, NoiseAndRatesAreAsDeclared) {
   spec.missed = 0.03;
   spec.false_reading = 0.05;
   constexpr std::uint32_t kReadings = 1'000'000;
-  const test::StandingBody body{Pose()};
+  const sense::StandingBody body{Pose()};
   InfraredReading reading;
   InfraredTruth truth;
   const auto sigma = [](double share) { return 3.0 * std::sqrt(share * (1.0 - share) / kReadings); };

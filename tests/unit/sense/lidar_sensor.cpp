@@ -9,6 +9,7 @@
 #include <functional>
 #include <numbers>
 
+#include "sense/standing_body.hpp"
 #include "support/errors.hpp"
 #include "unit/sense/moving_sensor.hpp"
 #include "unit/trace/shapes.hpp"
@@ -127,7 +128,7 @@ TEST(LidarSensor, WithoutSkewMeasuresAllRaysAtTheEnd) {
   EXPECT_EQ(scan.reading.t_begin_ns, 6 * kScan_ns);
   EXPECT_EQ(scan.reading.t_end_ns, 6 * kScan_ns);
   EXPECT_EQ(sensor.duration_ns(), kScan_ns);
-  const Scan standing = scan_of(sensor, test::StandingBody(body.pose_at(6 * kScan_ns)));
+  const Scan standing = scan_of(sensor, sense::StandingBody(body.pose_at(6 * kScan_ns)));
   EXPECT_EQ(bits_of(scan.reading.range_m), bits_of(standing.reading.range_m));
 }
 
@@ -139,7 +140,7 @@ TEST(LidarSensor, TellsFreeFromUnknown) {
   spec.max_range_m = 5.0;
   const auto range_at = [&](double x) {
     const LidarSensor sensor(spec, place.scene, place.surfaces, 0, 1);
-    return scan_of(sensor, test::StandingBody({Quat::Identity(), {x, 0, 0}})).reading.range_m[0];
+    return scan_of(sensor, sense::StandingBody({Quat::Identity(), {x, 0, 0}})).reading.range_m[0];
   };
   EXPECT_DOUBLE_EQ(range_at(1.0), 4.0);
   EXPECT_DOUBLE_EQ(range_at(0.0), 5.0) << "the greatest range is within";
@@ -172,7 +173,7 @@ class LidarStatistics : public testing::Test {
     n_ = 0;
     double sum = 0.0, squares = 0.0, fourth = 0.0, intensity = 0.0, intensity_squares = 0.0;
     for (std::uint32_t scan = 0; scan < 100; ++scan) {
-      const Scan made = scan_of(sensor, test::StandingBody({}), scan);
+      const Scan made = scan_of(sensor, sense::StandingBody({}), scan);
       for (std::size_t i = 0; i < made.reading.range_m.size(); ++i) {
         const double range = made.reading.range_m[i];
         if (std::isnan(range)) continue;
@@ -255,7 +256,7 @@ class LidarEdge : public testing::Test {
     spec.beam = {.divergence_rad = 0.01, .pulse_m = 0.5};
     spec.returns = returns;
     const LidarSensor sensor(spec, place.scene, place.surfaces, 0, 1);
-    const Scan scan = scan_of(sensor, test::StandingBody({}));
+    const Scan scan = scan_of(sensor, sense::StandingBody({}));
     return {scan.reading.range_m[0], returns == 2 ? scan.reading.range_m[1] : -1.0};
   }
   static constexpr double kOff_m = 1e-3;  ///< by which a slanted probe is longer
@@ -283,10 +284,10 @@ TEST_F(LidarEdge, LabelsAreOfEachReturn) {
   spec.pattern.rays = {PatternRay{}, PatternRay{.azimuth_rad = 0.2}, PatternRay{.azimuth_rad = 3.0}};
   spec.beam = {.divergence_rad = 0.01, .pulse_m = 0.5};
   spec.returns = 2;
-  EXPECT_TRUE(scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), test::StandingBody({}))
+  EXPECT_TRUE(scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), sense::StandingBody({}))
                   .truth.returned.empty());
   spec.labels = true;
-  const Scan scan = scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), test::StandingBody({}));
+  const Scan scan = scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), sense::StandingBody({}));
   const auto& labels = scan.truth.returned;
   ASSERT_EQ(labels.size(), 6u);
   EXPECT_LT(labels[0], 12u) << "the edge of the post";
@@ -297,7 +298,7 @@ TEST_F(LidarEdge, LabelsAreOfEachReturn) {
   EXPECT_EQ(labels[2], LidarTruth::kNothing) << "a free beam";
   spec.response.dropout = 1.0;
   for (const std::uint32_t label :
-       scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), test::StandingBody({})).truth.returned)
+       scan_of(LidarSensor(spec, place.scene, place.surfaces, 0, 1), sense::StandingBody({})).truth.returned)
     EXPECT_EQ(label, LidarTruth::kNothing) << "of no answer";
 }
 
@@ -307,14 +308,14 @@ TEST(LidarSensor, SeesItsOwnRobotUnlessItIsInIt) {
   spec.pattern = spinning_pattern({.from_rad = 0.0, .step_rad = 90 * kDegree, .columns = 4});
   const OwnBody mast{.middle = {-0.5, 0.0}, .radius_m = 0.1, .bottom_m = -1.0, .top_m = 1.0};
   const LidarSensor outside(spec, place.scene, place.surfaces, 0, 1, mast);
-  const Scan scan = scan_of(outside, test::StandingBody({}));
+  const Scan scan = scan_of(outside, sense::StandingBody({}));
   EXPECT_NEAR(scan.reading.range_m[2], 0.4, 1e-12) << "straight back";
   EXPECT_EQ(scan.truth.what[2], LidarTruth::kOwnBody);
   EXPECT_NEAR(scan.reading.range_m[0], 4.0, 1e-12);
   EXPECT_LT(scan.truth.what[0], LidarTruth::kOwnBody);
   spec.T_body_sensor.t = {-0.5, 0.05, 0.0};
   const LidarSensor inside(spec, place.scene, place.surfaces, 0, 1, mast);
-  EXPECT_NEAR(scan_of(inside, test::StandingBody({})).reading.range_m[2], 3.5, 1e-12);
+  EXPECT_NEAR(scan_of(inside, sense::StandingBody({})).reading.range_m[2], 3.5, 1e-12);
 }
 
 TEST(LidarSensor, TheSameBytesForAnyThreadsOrderAndNeighbours) {
@@ -363,19 +364,19 @@ TEST(LidarSensor, OutOfPlaceSaysSo) {
   const LidarSensor sensor(plain_lidar(), place.scene, place.surfaces, kScan_ns, 1);
   Pose bad;
   bad.t.x() = std::nan("");
-  const auto error = test::error_of([&] { scan_of(sensor, test::StandingBody(bad)); });
+  const auto error = test::error_of([&] { scan_of(sensor, sense::StandingBody(bad)); });
   ASSERT_TRUE(error);
   EXPECT_NE(error->where().element.find("`lidar`"), std::string::npos);
   bad.t.x() = 2e8;
-  EXPECT_TRUE(test::error_of([&] { scan_of(sensor, test::StandingBody(bad)); }));
+  EXPECT_TRUE(test::error_of([&] { scan_of(sensor, sense::StandingBody(bad)); }));
   const Place nothing{trace::TriangleMesh{}};
   const LidarSensor lost(plain_lidar(), nothing.scene, nothing.surfaces, kScan_ns, 1);
-  for (const double range : scan_of(lost, test::StandingBody({})).reading.range_m)
+  for (const double range : scan_of(lost, sense::StandingBody({})).reading.range_m)
     ASSERT_EQ(range, std::numeric_limits<double>::infinity());
   // From within a wall it sees the wall's other side.
   const Place wall(test::mesh_of({test::box({-1, -1, -1}, {1, 1, 1})}));
   const LidarSensor buried(plain_lidar(), wall.scene, wall.surfaces, kScan_ns, 1);
-  EXPECT_LE(scan_of(buried, test::StandingBody({})).reading.range_m[900], std::sqrt(3.0));
+  EXPECT_LE(scan_of(buried, sense::StandingBody({})).reading.range_m[900], std::sqrt(3.0));
 }
 
 TEST(LidarSensor, RefusesBadSpecificationsByName) {

@@ -9,20 +9,6 @@
 
 namespace hallway::test {
 
-/// A body that stands.
-class StandingBody final : public sense::Trajectory {
- public:
-  explicit StandingBody(const Pose& pose) : pose_(pose) {}
-  Pose pose_at(std::int64_t) const override { return pose_; }
-  sense::Kinematics kinematics_at(std::int64_t, double, sense::Side) const override {
-    return {.T_world_body = pose_};
-  }
-  std::vector<double> breaks_in(std::int64_t, std::int64_t) const override { return {}; }
-
- private:
-  Pose pose_;
-};
-
 /// A body that goes round a circle about a point at a constant rate, x forward, while it rises evenly.
 class CirclingBody final : public sense::Trajectory {
  public:

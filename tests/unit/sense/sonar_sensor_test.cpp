@@ -9,6 +9,7 @@
 #include <functional>
 #include <numbers>
 
+#include "sense/standing_body.hpp"
 #include "support/errors.hpp"
 #include "unit/sense/moving_sensor.hpp"
 #include "unit/trace/shapes.hpp"
@@ -47,7 +48,7 @@ Sweep sweep_of(const SonarSensor& sensor, const Trajectory& trajectory, std::uin
 }
 
 Sweep look(const SonarSpec& spec, const Walls& place, const Pose& from = Pose()) {
-  return sweep_of(SonarSensor(spec, place.scene, place.surfaces, 1), test::StandingBody(from));
+  return sweep_of(SonarSensor(spec, place.scene, place.surfaces, 1), sense::StandingBody(from));
 }
 
 /// A slab whose near face is a wall at a distance from the origin, its normal turned from the x axis.
@@ -279,7 +280,7 @@ class SonarStatistics : public testing::Test {
   }
   void each_range(const std::function<void(double)>& use) const {
     const SonarSensor sensor(spec_, place_.scene, place_.surfaces, 5);
-    const test::StandingBody body{Pose()};
+    const sense::StandingBody body{Pose()};
     Sweep made;
     for (std::uint32_t k = 0; k < kSweeps; ++k) {
       sensor.read(k, 0, body, 1, made.reading, made.truth);
@@ -351,11 +352,11 @@ TEST(SonarSensor, MeetsTheRobotsOwnBody) {
   SonarSpec spec = plain_sonar();
   const OwnBody mast{.middle = {0.5, 0.0}, .radius_m = 0.05, .bottom_m = -1.0, .top_m = 1.0};
   const Sweep sweep =
-      sweep_of(SonarSensor(spec, place.scene, place.surfaces, 1, mast), test::StandingBody(Pose()));
+      sweep_of(SonarSensor(spec, place.scene, place.surfaces, 1, mast), sense::StandingBody(Pose()));
   EXPECT_NEAR(sweep.reading.range_m[0], 0.45, 1e-9);
   EXPECT_EQ(sweep.truth.what[0], SonarTruth::kOwnBody);
   spec.own_body = false;
-  EXPECT_NEAR(sweep_of(SonarSensor(spec, place.scene, place.surfaces, 1, mast), test::StandingBody(Pose()))
+  EXPECT_NEAR(sweep_of(SonarSensor(spec, place.scene, place.surfaces, 1, mast), sense::StandingBody(Pose()))
                   .reading.range_m[0],
               4.0, 1e-6);
 }
