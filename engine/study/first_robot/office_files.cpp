@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "base/toml_text.hpp"
@@ -172,6 +173,31 @@ std::string office_scenario(const std::vector<std::string>& about, const std::st
   return text;
 }
 
+namespace {
+
+/// All of the files, or none where one cannot be written: a map beside the scenario of another office would pass for one.
+void write_together(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& texts) {
+  std::vector<std::filesystem::path> parts;
+  std::error_code none;
+  try {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      parts.emplace_back(files[i].string() + ".part");
+      write_file_atomically(parts[i], texts[i]);
+    }
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      std::error_code problem;
+      std::filesystem::rename(parts[i], files[i], problem);
+      if (problem)
+        throw Error(ErrorCode::kIo, "cannot write: " + problem.message(), {.file = files[i].string()});
+    }
+  } catch (const Error&) {
+    for (const std::filesystem::path& part : parts) std::filesystem::remove(part, none);
+    throw;
+  }
+}
+
+}  // namespace
+
 std::vector<std::filesystem::path> office_files(const std::filesystem::path& map) {
   const auto beside = [&](const char* ending) { return map.parent_path() / (map.stem().string() + ending); };
   return {map, beside(".toml"), beside("_faults.toml"), beside("_robot.map")};
@@ -185,12 +211,12 @@ std::vector<std::filesystem::path> write_office(std::uint64_t seed, const std::f
   const std::string map_name = files[0].filename().string(), robot_name = files[3].filename().string();
   const std::string what = fmt::format(
       "An office of hallway study first-robot, seed {}: {:.2f} m round its block.", seed, office.loop_m());
-  write_file_atomically(files[0], map::print(office_map(office)));
-  write_file_atomically(files[1], office_scenario({what, "No sensor reads falsely and no track slips."},
-                                                  map_name, robot_name, OfficeFaults::kNone));
-  write_file_atomically(files[2], office_scenario({what, "Tracks and sensors have faults."}, map_name,
-                                                  robot_name, OfficeFaults::kUsual));
-  write_file_atomically(files[3], robot_text);
+  write_together(files, {map::print(office_map(office)),
+                         office_scenario({what, "No sensor reads falsely and no track slips."}, map_name,
+                                         robot_name, OfficeFaults::kNone),
+                         office_scenario({what, "Tracks and sensors have faults."}, map_name, robot_name,
+                                         OfficeFaults::kUsual),
+                         robot_text});
   return files;
 }
 

@@ -28,7 +28,7 @@ std::string office_scenario(const std::vector<std::string>& about, const std::st
                             const std::string& robot, OfficeFaults faults);
 
 /// Writes NAME.map, NAME.toml, NAME_faults.toml, and NAME_robot.map, a copy of the robot file, so that they may be moved together. The same seed and robot
-/// give the same bytes. Throws Error{kIo}.
+/// give the same bytes. Throws Error{kIo}: where one cannot be written, all files stay as they were.
 /// @param map  the path of NAME.map
 /// @return the files, in this order
 std::vector<std::filesystem::path> write_office(std::uint64_t seed, const std::filesystem::path& map,
