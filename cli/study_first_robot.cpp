@@ -82,10 +82,12 @@ void draw_figures(const batch::Plan& plan, const std::vector<batch::Result>& res
     const char* faults;
     std::vector<std::string> arguments;
   };
-  const Figure figures[] = {
-      {"figure_26.png", "cubicles", "no", {"--cut", "1.2"}},
-      {"figure_27.png", "cubicles_changed", "no", {"--cut", "1.2", "--iteration", "0", "--hide", "truth"}},
-      {"figure_28.png", "cubicles_changed", "yes", {"--cut", "1.2"}}};
+  const Figure figures[] = {{"figure_26.png", "cubicles", "no", {"--cut", "1.2"}},
+                            {"figure_27.png",
+                             "cubicles_changed",
+                             "no",
+                             {"--cut", "1.2", "--iteration", "0", "--hide", "all", "--show", "map,body"}},
+                            {"figure_28.png", "cubicles_changed", "yes", {"--cut", "1.2"}}};
   for (const Figure& figure : figures) {
     const auto cell = std::ranges::find_if(plan.cells, [&](const batch::Cell& one) {
       return one.labels[0].value == figure.map && one.labels[2].value == figure.faults;

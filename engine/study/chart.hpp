@@ -14,6 +14,7 @@ struct Axis {
   std::string label{};               ///< what is shown, with its unit
   bool log = false;                  ///< logarithmic; what is not above zero is then not shown
   std::vector<std::string> names{};  ///< of the places 0, 1, ... in place of numbers; not logarithmic
+  bool counts = false;               ///< ticks are at whole numbers only; not logarithmic
 };
 
 /// How a series is drawn.

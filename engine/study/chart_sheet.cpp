@@ -75,7 +75,7 @@ class Layouter {
     for (const std::string& name : axis.names)
       named.push_back({static_cast<double>(named.size()), printable(name)});
     if (!named.empty()) return named;
-    return axis.log ? log_ticks(range, most) : linear_ticks(range, most);
+    return axis.log ? log_ticks(range, most) : linear_ticks(range, most, axis.counts ? 1.0 : 0.0);
   }
 
   bool shown(const Vec2& point) const {

@@ -43,8 +43,8 @@ AxisRange axis_range(const std::vector<double>& values, bool log) {
   return {range.low == 0.0 ? 0.0 : range.low - room, range.high + room};
 }
 
-std::vector<Tick> linear_ticks(const AxisRange& range, int most) {
-  const double step = round_up_125((range.high - range.low) / std::max(most - 1, 1));
+std::vector<Tick> linear_ticks(const AxisRange& range, int most, double least_step) {
+  const double step = std::max(round_up_125((range.high - range.low) / std::max(most - 1, 1)), least_step);
   std::vector<Tick> ticks;
   for (double k = std::ceil(range.low / step - 1e-9); k * step <= range.high + 1e-9 * step; k += 1.0)
     ticks.push_back({k * step, tick_text(k * step, step)});

@@ -23,7 +23,8 @@ struct AxisRange {
 AxisRange axis_range(const std::vector<double>& values, bool log);
 
 /// Ticks at multiples of 1, 2 or 5 times a power of ten, at most `most` (at least 2) of them, within the range.
-std::vector<Tick> linear_ticks(const AxisRange& range, int most);
+/// @param least_step  the ticks are no nearer to each other
+std::vector<Tick> linear_ticks(const AxisRange& range, int most, double least_step = 0.0);
 
 /// Ticks at powers of ten; where there are fewer than three, also at 2 and 5 times these. Within the range, which is above zero.
 std::vector<Tick> log_ticks(const AxisRange& range, int most);

@@ -65,7 +65,10 @@ Chart histogram(std::span<const MappingRun> runs, RunNumber number, double part,
     for (const MappingRun& run : runs) {
       if (run.faults == faults && run.*number) counts[static_cast<std::size_t>(*(run.*number) / part)] += 1.0;
     }
-    Series series{.name = faults ? "faults" : "no faults", .colour = series_colour(faults ? 1 : 0)};
+    // Dashed over whole lines: both are seen where they are the same.
+    Series series{.name = faults ? "faults" : "no faults",
+                  .style = faults ? SeriesStyle::kDashed : SeriesStyle::kLine,
+                  .colour = series_colour(faults ? 1 : 0)};
     series.points.emplace_back(0.0, 0.0);
     for (std::size_t i = 0; i < counts.size(); ++i) {
       series.points.emplace_back(part * static_cast<double>(i), counts[i]);
@@ -85,12 +88,12 @@ std::vector<Chart> mapping_charts(std::span<const MappingRun> runs) {
                     {.file = "distances",
                      .title = "First robot: distance driven in a run",
                      .x = {.label = "distance, m"},
-                     .y = {.label = "runs, in parts of 10 m"}}),
+                     .y = {.label = "number of runs, for each 10 m", .counts = true}}),
           histogram(runs, &MappingRun::time_s, 30.0,
                     {.file = "times_to_stand",
                      .title = "First robot: time until it stays where it is",
                      .x = {.label = "time in the simulation, s"},
-                     .y = {.label = "runs, in parts of 30 s"}})};
+                     .y = {.label = "number of runs, for each 30 s", .counts = true}})};
 }
 
 }  // namespace hallway::study

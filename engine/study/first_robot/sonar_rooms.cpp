@@ -111,8 +111,8 @@ Chart depth_chart(const std::vector<LabelledSweep>& sweeps, const SonarRoomsRequ
   return {.file = "errors_by_room_depth",
           .title = "Rule of rooms and hallways: errors on openings that it was not fitted on",
           .figures = kSonarFigures,
-          .x = {"room_depth_m, m"},
-          .y = {"share of openings"},
+          .x = {"parameter room_depth_m, m"},
+          .y = {"share classified wrongly"},
           .series = {rooms, hallways, all}};
 }
 
@@ -121,7 +121,7 @@ Chart true_depth_chart(const std::vector<LabelledSweep>& sweeps, const SonarRoom
                        const SweepRuleParameters& parameters) {
   constexpr double kPart_m = 0.5;
   Chart chart{.file = "errors_by_true_depth",
-              .title = "Rule of rooms and hallways: errors by what is there",
+              .title = "Rule of rooms and hallways: errors by true depth, calibrated",
               .figures = kSonarFigures,
               .x = {"true depth behind the wall's line, m"},
               .y = {"share classified wrongly"}};
@@ -212,7 +212,7 @@ Chart sweep_chart(const LabelledSweep& sweep, const std::string& file, const std
               .title = fmt::format("Sweep at a {}, {:.1f} m deep", name_of(opening.kind), opening.depth_m),
               .figures = figures,
               .x = {"along the followed wall, m"},
-              .y = {"m"},
+              .y = {"from the followed wall, m"},
               .equal_scales = true};
   const double nothing = std::nan("");
   Series walls{.name = "walls", .colour = render::palette::kInk};
@@ -230,7 +230,7 @@ Chart sweep_chart(const LabelledSweep& sweep, const std::string& file, const std
   const Vec2 robot(opening.along_m, opening.wall_m);
   Series pings{.name = "pings with an echo", .colour = series_colour(0)};
   Series echoes{
-      .name = "where it is by the beam's middle", .style = SeriesStyle::kMarks, .colour = series_colour(1)};
+      .name = "echo, drawn at the beam's middle", .style = SeriesStyle::kMarks, .colour = series_colour(1)};
   for (const HeardPing& ping : sweep.pings) {
     if (!std::isfinite(ping.range_m)) continue;
     const double angle = opening.slant_rad + ping.direction_rad;

@@ -16,6 +16,11 @@ std::vector<std::string> texts(const std::vector<Tick>& ticks) {
 
 using Texts = std::vector<std::string>;
 
+TEST(LinearTicks, OfCountsAreWholeNumbers) {
+  EXPECT_EQ(texts(linear_ticks({0.0, 2.08}, 8, 1.0)), (Texts{"0", "1", "2"}));
+  EXPECT_EQ(linear_ticks({0.0, 40.0}, 8, 1.0).size(), linear_ticks({0.0, 40.0}, 8).size());
+}
+
 TEST(LinearTicks, AreRoundNumbers) {
   EXPECT_EQ(texts(linear_ticks({0.0, 10.0}, 6)), (Texts{"0", "2", "4", "6", "8", "10"}));
   EXPECT_EQ(texts(linear_ticks({-0.03, 0.051}, 6)), (Texts{"-0.02", "0.00", "0.02", "0.04"}));
