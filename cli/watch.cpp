@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "base/error.hpp"
+#include "base/file.hpp"
 #include "base/refuse.hpp"
+#include "base/toml_reader.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "run/pictures/record.hpp"
 #include "scenario_run.hpp"
+#include "sim/scenario.hpp"
 #include "watch/log_moments.hpp"
 #include "watch/make_scene.hpp"
 #include "watch_screen.hpp"
@@ -78,6 +83,34 @@ int play(const WatchOptions& options) {
   return interrupted() ? interrupt_status() : 0;
 }
 
+/// Whether its reader says best what is wrong: a file that is called a scenario and is no TOML, or TOML that names a map.
+bool is_like_scenario(const fs::path& file, const WatchOptions& options) {
+  if (fs::file_size(file) > sim::kMaxScenarioBytes) return false;
+  const std::string text = read_file(file);
+  try {
+    const TomlTable top = parse_toml(text, path_text(file));
+    return find(top, "map") != nullptr || find(top, "schema") != nullptr ||
+           std::ranges::any_of(options.settings,
+                               [](const std::string& setting) { return setting.starts_with("map="); });
+  } catch (const Error&) {
+    return file.extension() == ".toml";
+  }
+}
+
+/// Throws Error{kBadInput} for what can be neither played nor run.
+void require_watchable(const fs::path& input, const WatchOptions& options) {
+  std::error_code code;
+  const fs::file_status status = fs::status(input, code);
+  if (status.type() == fs::file_type::not_found)
+    throw Error(ErrorCode::kBadInput,
+                "does not exist; the folder of a run, a scenario (.toml) or a map (.map) is wanted",
+                {.file = path_text(input)});
+  if (code || input.extension() == ".map") return;
+  if (!fs::is_regular_file(status) || !is_like_scenario(input, options))
+    throw Error(ErrorCode::kBadInput, "is neither the folder of a run nor a scenario (.toml) or a map (.map)",
+                {.file = path_text(input)});
+}
+
 int watch_run(const WatchOptions& options) {
   std::error_code code;
   const fs::path input = options.scenario;
@@ -85,6 +118,7 @@ int watch_run(const WatchOptions& options) {
   if (input.extension() == ".mcap")
     throw Error(ErrorCode::kBadInput, "is a log; the folder of its run is what can be watched",
                 {.file = path_text(input)});
+  require_watchable(input, options);
   Watcher watcher(style_of(options));
   return run_scenario(options, &watcher);
 }
@@ -113,7 +147,7 @@ void add_watch_command(Command& app) {
   add_run_options(command, options);
   command.footer(
       "Keys: SPACE pauses, . and , step, + and - change the speed, f follows the robot, z and Z zoom, arrows "
-      "move, 0 to 9 show and "
+      "move, 0 to 9, t and w show and "
       "hide layers, ? lists all, q closes the view; a run then goes on without it. Ctrl-C ends the run.\n"
       "A run that is watched writes the same folder as one that is not. Without a terminal, or with "
       "TERM=dumb, lines are printed.\n"

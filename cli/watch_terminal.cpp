@@ -123,6 +123,8 @@ Look look_of(Role role) {
       return {COLOR_BLUE, A_BOLD};
     case Role::kMapped:
       return {COLOR_MAGENTA, A_NORMAL};
+    case Role::kDrawn:
+      return {COLOR_YELLOW, A_NORMAL};
     case Role::kRobot:
       return {COLOR_YELLOW, A_BOLD | A_REVERSE};
   }

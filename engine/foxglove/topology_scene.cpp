@@ -48,10 +48,8 @@ Line ring(const Vec3& middle, double radius_m, int corners, double from_rad, con
 }
 
 Line arrow(const log::TopologyNode& node, const SeenPlace& seen, const Colour& colour) {
-  Vec3 way = seen.place - seen.robot;
-  way.z() = 0.0;
-  way = way.norm() > 0.0 ? Vec3(way.normalized()) : Vec3::UnitX();
-  way *= node.direction * std::clamp(node.size_m.value_or(0.0), kShortestArrow_m, kLongestArrow_m);
+  const Vec3 way =
+      std::clamp(node.size_m.value_or(0.0), kShortestArrow_m, kLongestArrow_m) * step_way(node, seen);
   const Vec3 from = seen.place + kRadius_m * way.normalized(), tip = from + way;
   Line line{.kind = Line::Kind::kPairs, .points = {from, tip}, .width_px = 2.0, .colour = colour};
   for (const double angle : {0.45, -0.45}) {

@@ -6,16 +6,11 @@
 #include <string>
 
 #include "foxglove/messages.hpp"
+#include "foxglove/seen_place.hpp"
 #include "log/drawing.hpp"
 #include "log/topology.hpp"
 
 namespace hallway::foxglove {
-
-/// Where a place of a topological map is, and where the robot was that saw it.
-struct SeenPlace {
-  Vec3 place = Vec3::Zero();
-  Vec3 robot = Vec3::Zero();
-};
 
 /// A topological map as figure 25 of the thesis has it: discontinuities as circles with an arrow away from the robot or to it, as long as the step within
 /// limits; sweeps and hallway ends as squares with a circle, rooms and junctions as squares with a triangle; edges as lines; numbers.

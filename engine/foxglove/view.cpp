@@ -256,7 +256,7 @@ void View::add_map(const log::FrameStamp& stamp, const log::MapAnswer& map) {
 std::optional<SeenPlace> View::place_of(const log::TopologyNode& node) const {
   const Pose* body = (true_history_.empty() ? history_ : true_history_).at(node.t_ns);
   if (body == nullptr) return std::nullopt;
-  return SeenPlace{*body * Vec3(node.x_m, node.y_m, 0.0), body->t};
+  return seen_from(node, *body);
 }
 
 void View::add_topology(const log::FrameStamp& stamp, const log::Topology& topology) {

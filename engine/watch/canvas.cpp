@@ -31,6 +31,8 @@ char32_t ascii_of(Role role) {
       return U'o';
     case Role::kContact:
       return U'x';
+    case Role::kMapped:
+      return U':';
     default:
       return U'*';
   }

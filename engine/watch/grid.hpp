@@ -22,6 +22,7 @@ enum class Role : std::uint8_t {
   kContact,   ///< contacts, and lines that warn
   kLandmark,  ///< true landmarks
   kMapped,    ///< what a plugin mapped
+  kDrawn,     ///< what a plugin draws
   kRobot,     ///< in front of everything
 };
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "watch/plugin_layers.hpp"
+
 namespace hallway::watch {
 namespace {
 
@@ -153,12 +155,21 @@ constexpr std::array kLayers{
     Layer{'5', "way", "where the robot was", &draw_truth},
     Layer{'3', "seen", "what the sensors see, single rays for 3 s", &draw_seen},
     Layer{'6', "estimate", "where a plugin believes it was", &draw_estimate},
+    Layer{'t', "topology", "a plugin's topological map", &draw_topology},
+    Layer{'w', "drawing", "what a plugin draws", &draw_drawing},
     Layer{'7', "contacts", "contacts (x), pressed zones (!)", &draw_contacts},
     Layer{'9', "command", "the command, for two seconds", &draw_command},
     Layer{'0', "robot", "the robot", &draw_robot},
 };
 
 }  // namespace
+
+void Drawing::text(Vec2 dots_in_cell, std::string_view text, Role role) const {
+  for (const char32_t glyph : glyphs_of(text)) {
+    canvas.glyph(dots_in_cell, dots == Dots::kAscii && glyph >= 0x80 ? U'?' : glyph, role);
+    dots_in_cell.x() += shape_of(dots).columns;
+  }
+}
 
 std::span<const Layer> layers() {
   return kLayers;

@@ -32,6 +32,9 @@ struct Drawing {
   }
   void dot(const Vec2& place, Role role) const { canvas.dot(at(place), role); }
   void glyph(const Vec2& place, char32_t glyph, Role role) const { canvas.glyph(at(place), glyph, role); }
+  /// Characters from a cell to the right, as Grid::put() shows them; in ASCII, others are `?`.
+  /// @param dots_in_cell  a place in the first cell, in dots of the canvas
+  void text(Vec2 dots_in_cell, std::string_view text, Role role) const;
 };
 
 /// A layer of the drawing: a row of one table. A new layer is a new row.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "watch/plugin_layers.hpp"
+
 namespace hallway::watch {
 namespace {
 
@@ -29,6 +31,8 @@ std::string state_line(const Moment& moment, const Past& past) {
   if (const auto& obeyed = moment.obeyed)
     text += fmt::format("  {:.2f} m/s {:.2f} rad/s ({})", obeyed->linear_m_s, obeyed->angular_rad_s,
                         log::command_cause_name(obeyed->cause));
+  if (moment.topology) text += "  " + topology_text(*moment.topology);
+  if (const std::string said = drawn_text(moment.drawing); !said.empty()) text += "  " + said;
   return text + "\n";
 }
 

@@ -34,9 +34,9 @@ class Collector {
       lines_.push_back(foxglove::read_log(message.data));
       return complete;
     }
-    if (channel.topic == log::topics::kPose) {
-      const log::AnswerMessage answer = log::parse_answer_message(channel, message);
-      if (const auto* pose = std::get_if<log::PoseMessage>(&answer)) maker_.add_pose(pose->pose);
+    has_map_ = has_map_ || channel.topic == log::topics::kMap;
+    if (is_answer(channel.topic)) {
+      std::visit(*this, log::parse_answer_message(channel, message));
       return complete;
     }
     std::visit(*this, log::parse_drive_message(channel, message));
@@ -67,6 +67,9 @@ class Collector {
   void operator()(const log::IterationPose& pose) {
     maker_.add_true_pose(to_pose(pose.position_m, pose.orientation), pose.orientation_known);
   }
+  void operator()(const log::PoseMessage& message) { maker_.add_pose(message.pose); }
+  void operator()(log::TopologyMessage&& message) { maker_.add_topology(std::move(message.topology)); }
+  void operator()(log::DrawingMessage&& message) { maker_.add_drawing(std::move(message.drawing)); }
   void operator()(const log::CommandMessage& message) { maker_.add_command(message.command); }
   void operator()(const log::ObeyedCommand& command) { maker_.add_obeyed(command); }
   void operator()(const log::ContactMessage& message) { maker_.add_contact(message.contact); }
@@ -81,6 +84,12 @@ class Collector {
            topic == log::topics::kTruePose || topic == log::topics::kCommand;
   }
 
+  /// What was answered to a frame. A topology after the map is that of report(), which is of no frame.
+  bool is_answer(std::string_view topic) const {
+    return topic == log::topics::kPose || topic == log::topics::kDrawing ||
+           (topic == log::topics::kTopology && !has_map_);
+  }
+
   /// Foxglove shows an event as a line too (View::add_event()).
   bool is_of_event(const foxglove::LogLine& line) const {
     return line.name == "hallway" &&
@@ -92,6 +101,7 @@ class Collector {
   MomentMaker maker_;
   host::FrameReader frames_;
   bool has_frame_ = false;
+  bool has_map_ = false;
   std::vector<foxglove::LogLine> lines_;  ///< some come before the first frame
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,8 +10,10 @@
 
 #include "foxglove/messages.hpp"
 #include "geometry/se3.hpp"
+#include "log/drawing.hpp"
 #include "log/drive_tables.hpp"
 #include "log/run_log.hpp"
+#include "log/topology.hpp"
 
 namespace hallway::watch {
 
@@ -35,10 +38,13 @@ struct Moment {
   std::optional<log::PoseAnswer> pose{};                   ///< T_map_body
   std::optional<log::CommandAnswer> command{};             ///< that a plugin put
   std::vector<std::pair<std::string, double>> counters{};  ///< of a plugin; a log has none
-  std::optional<log::ObeyedCommand> obeyed{};              ///< that the drive obeys from this frame on
-  std::vector<log::ContactRow> contacts{};                 ///< that began since the frame before
-  std::vector<log::EventRow> events{};                     ///< since the frame before
-  std::vector<foxglove::LogLine> lines{};                  ///< that plugins logged
+  /// The topological map of the plugin that holds at this frame; null before the first one. Shared by all moments at which it holds.
+  std::shared_ptr<const log::Topology> topology{};
+  log::Drawing drawing{};                      ///< what the plugin shows of itself at this frame
+  std::optional<log::ObeyedCommand> obeyed{};  ///< that the drive obeys from this frame on
+  std::vector<log::ContactRow> contacts{};     ///< that began since the frame before
+  std::vector<log::EventRow> events{};         ///< since the frame before
+  std::vector<foxglove::LogLine> lines{};      ///< that plugins logged
 };
 
 }  // namespace hallway::watch

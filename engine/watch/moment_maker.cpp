@@ -15,6 +15,7 @@
 #include "geom/arrays.hpp"
 #include "host/samples/sample_kind.hpp"
 #include "record/answer_recorder.hpp"
+#include "record/plugin_topology.hpp"
 #include "run/feed/observation_tables.hpp"
 #include "run/sources/abi_pose.hpp"
 
@@ -77,6 +78,7 @@ void MomentMaker::begin(const hw_frame_t& frame) {
   moment_ = {};
   moment_.iteration = static_cast<std::uint32_t>(frame.sequence);
   moment_.t_ns = frame.t_ns;
+  moment_.topology = topology_;
   for (std::uint32_t k = 0; k < frame.n_samples; ++k) add_sample(*frame.samples[k]);
 }
 
@@ -129,10 +131,17 @@ void MomentMaker::add_true_pose(const Pose& T_world_body, bool orientation_known
   moment_.orientation_known = orientation_known;
 }
 
+void MomentMaker::add_topology(log::Topology topology) {
+  topology_ = std::make_shared<const log::Topology>(std::move(topology));
+  moment_.topology = topology_;
+}
+
 void MomentMaker::add_answer(const host::Outputs& outputs) {
   if (outputs.pose()) add_pose(record::pose_answer(outputs));
   if (const auto& command = outputs.drive_command())
     add_command({command->linear_m_s, command->angular_rad_s, command->lateral_m_s});
+  if (outputs.topology() != nullptr) add_topology(record::copy_topology(*outputs.topology()));
+  if (outputs.drawing() != nullptr) add_drawing(record::copy_drawing(*outputs.drawing()));
   for (const host::Counter& counter : outputs.counters())
     moment_.counters.emplace_back(printable(counter.name, 24), counter.value);
 }

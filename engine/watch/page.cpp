@@ -9,7 +9,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/text.hpp"
 #include "watch/keys.hpp"
+#include "watch/plugin_layers.hpp"
 
 namespace hallway::watch {
 namespace {
@@ -37,8 +39,16 @@ std::string speed_text(double linear_m_s, double lateral_m_s, double angular_rad
 
 void add_plugin(const Subject& subject, std::vector<PanelLine>& lines) {
   const Moment& moment = subject.moment;
-  if (!moment.pose && !moment.command && moment.counters.empty()) return;
+  const std::string said = drawn_text(moment.drawing);
+  if (!moment.pose && !moment.command && moment.counters.empty() && !moment.topology && said.empty()) return;
   lines.emplace_back("plugin", Role::kEstimate);
+  if (moment.topology) {
+    const bool is_sure = moment.topology->loop != log::LoopState::kUncertain;
+    lines.emplace_back("  " + topology_text(*moment.topology), is_sure ? Role::kText : Role::kContact);
+    if (!moment.topology->note.empty())
+      lines.emplace_back("  " + printable(moment.topology->note, 60), Role::kDim);
+  }
+  if (!said.empty()) lines.emplace_back("  " + said, Role::kDrawn);
   if (moment.pose && !moment.pose->valid) lines.emplace_back("  lost", Role::kContact);
   const PastPlace* place = subject.past.place(moment.iteration);
   if (place != nullptr && place->estimate) {

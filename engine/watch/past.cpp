@@ -57,6 +57,8 @@ void Past::add(const Moment& moment) {
   place.iteration = moment.iteration;
   if (moment.T_world_body) place.truth = moment.T_world_body->t.head<2>();
   place.estimate = estimate_of(moment);
+  if (moment.T_world_body && moment.orientation_known) true_poses_.add(moment.t_ns, *moment.T_world_body);
+  if (place.estimate) estimates_.add(moment.t_ns, *place.estimate);
   contacts_.insert(contacts_.end(), moment.contacts.begin(), moment.contacts.end());
   const std::vector<Line> more = lines_of(moment);
   lines_.insert(lines_.end(), more.begin(), more.end());
@@ -86,6 +88,12 @@ std::span<const PastPlace> Past::places(std::uint32_t until) const {
 const PastPlace* Past::place(std::uint32_t iteration) const {
   const auto found = std::ranges::lower_bound(places_, iteration, {}, &PastPlace::iteration);
   return found != places_.end() && found->iteration == iteration ? &*found : nullptr;
+}
+
+std::optional<foxglove::SeenPlace> Past::place_of(const log::TopologyNode& node) const {
+  const Pose* body = (true_poses_.empty() ? estimates_ : true_poses_).at(node.t_ns);
+  if (body == nullptr) return std::nullopt;
+  return foxglove::seen_from(node, *body);
 }
 
 std::span<const log::ContactRow> Past::contacts(std::int64_t until_ns) const {

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "foxglove/pose_history.hpp"
+#include "foxglove/seen_place.hpp"
 #include "watch/moment.hpp"
 
 namespace hallway::watch {
@@ -30,6 +32,9 @@ class Past {
   std::span<const PastPlace> places(std::uint32_t until) const;
   /// The place of an iteration; null where it was not shown.
   const PastPlace* place(std::uint32_t iteration) const;
+  /// Where a place of a topological map is: where the robot truly was at the node's time, or where a plugin believes it was if no true pose is known. Nothing
+  /// if neither is known. World; O(log n).
+  std::optional<foxglove::SeenPlace> place_of(const log::TopologyNode& node) const;
   /// Contacts up to a time, in order.
   std::span<const log::ContactRow> contacts(std::int64_t until_ns) const;
 
@@ -61,6 +66,8 @@ class Past {
   void add_echoes(const Moment& moment, const std::optional<Pose>& pose);
 
   std::vector<PastPlace> places_;
+  foxglove::PoseHistory true_poses_;
+  foxglove::PoseHistory estimates_;  ///< T_world_body by the plugin's poses
   std::vector<log::ContactRow> contacts_;
   std::vector<Line> lines_;
   std::vector<Echo> echoes_;

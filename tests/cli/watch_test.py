@@ -26,6 +26,7 @@ HALLWAY = BUILD / "bin" / "hallway"
 LIMIT_S = 240  # for events that come at once on an idle machine
 ENVIRONMENT = {**os.environ, "TERM": "xterm", "LC_ALL": "C.UTF-8"}
 ARROWS = "→↗↑↖←↙↓↘"
+PLACES = "○◎△□◇"
 
 
 class Screen:
@@ -227,18 +228,28 @@ def comparable(file):
     return None if file.name == "timing.csv" else file.read_bytes()
 
 
+def drawn(text):
+    """What is on the canvas of a page of 80 x 24 and more: left of the panel."""
+    return "\n".join(row.split("│")[0] for row in text.splitlines()[1:-6])
+
+
+def places(text):
+    """The characters of places of a topological map on the canvas."""
+    return [one for one in drawn(text) if one in PLACES]
+
+
 def has_plan(text):
     return sum("⠁" <= one <= "⣿" for one in text) > 60 and any(arrow in text for arrow in ARROWS)
 
 
-class Watch(unittest.TestCase):
-    SCENARIO = SOURCE / "maps" / "office_drive.toml"
+class WatchCase(unittest.TestCase):
+    """Tests of a scenario, of which there is a run that nobody watched."""
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.run_folder = pathlib.Path(cls.folder.name) / "run"
-        subprocess.run([HALLWAY, "run", cls.SCENARIO, "--steps", "200", "--quiet", "--foxglove", "--out", cls.run_folder], check=True)
+        subprocess.run([HALLWAY, "run", cls.SCENARIO, *cls.OPTIONS, "--quiet", "--out", cls.run_folder], check=True)
 
     @classmethod
     def tearDownClass(cls):
@@ -249,6 +260,11 @@ class Watch(unittest.TestCase):
         self.assertGreater(len(files), 10)
         for name in sorted(files):
             self.assertEqual(comparable(self.run_folder / name), comparable(other / name), name)
+
+
+class Watch(WatchCase):
+    SCENARIO = SOURCE / "maps" / "office_drive.toml"
+    OPTIONS = ("--steps", "200", "--foxglove")
 
     def test_plays_a_run_in_a_terminal(self):
         with Watched([self.run_folder]) as watched:
@@ -374,11 +390,24 @@ class Watch(unittest.TestCase):
         without_log.mkdir()
         (without_log / "run.json").write_bytes((self.run_folder / "run.json").read_bytes())
         (folder / "bad.toml").write_text("schema = 'hallway.scenario/1'\nmap = 3\n")
+        (folder / "other.toml").write_text("[package]\nname = 'other'\n")
+        (folder / "broken.toml").write_text("map = = 3\n")
+        (folder / "scenario.txt").write_text("map = 'office.map'\nsteps = 'three'\n")
+        with open(folder / "large", "wb") as large:
+            large.truncate(1 << 32)
         for arguments, status, text in (
                 ([folder / "empty"], 3, "is no folder of a run"),
                 ([without_log], 3, "has no log (run.mcap)"),
                 ([folder / "bad.toml"], 3, "bad.toml:2"),
-                ([folder / "missing.toml"], 3, "missing.toml"),
+                ([folder / "missing.toml"], 3, "missing.toml: does not exist; the folder of a run, a scenario (.toml) or a map (.map) is wanted"),
+                ([folder / "none"], 3, "none: does not exist; the folder of a run, a scenario (.toml) or a map (.map) is wanted"),
+                ([SOURCE / "README.md"], 3, "README.md: is neither the folder of a run nor a scenario (.toml) or a map (.map)"),
+                ([self.run_folder / "metrics.json"], 3, "metrics.json: is neither the folder of a run nor a scenario"),
+                ([folder / "other.toml"], 3, "other.toml: is neither the folder of a run nor a scenario"),
+                ([folder / "large"], 3, "large: is neither the folder of a run nor a scenario"),
+                (["/dev/null"], 3, "/dev/null: is neither the folder of a run nor a scenario"),
+                ([folder / "broken.toml"], 3, "broken.toml:1"),
+                ([folder / "scenario.txt"], 3, "scenario.txt:2"),
                 ([self.run_folder / "run.mcap"], 3, "is a log; the folder of its run"),
                 ([self.run_folder, "--seed", "3"], 2, "other options are of a scenario"),
                 ([self.run_folder, "--speed", "0"], 2, "--speed"),
@@ -396,6 +425,93 @@ class Watch(unittest.TestCase):
         self.assertEqual(ended.returncode, 0)
         self.assertIn("0.00 s  frame 0", ended.stdout)
         self.assertIn("damaged at byte", ended.stderr)
+
+
+class WatchChart(WatchCase):
+    """A robot that charts: its topological map, and what it draws."""
+
+    SCENARIO = SOURCE / "maps" / "cubicles_faults.toml"
+    OPTIONS = ("--steps", "500")
+    LAST = "frame 499 of 499"
+
+    def to_the_end(self, watched):
+        watched.wait_for(has_plan, "plan and robot")
+        watched.type(" >")
+        return watched.wait_for(lambda text: self.LAST in text and "END" in text and self.nodes(text) >= 4 and len(set(places(text))) >= 2,
+                                "the last frame, with places of several kinds")
+
+    def nodes(self, text):
+        found = re.search(r"(\d+) nodes, loop open", text)
+        return int(found[1]) if found else -1
+
+    def test_shows_the_chart_of_a_run(self):
+        for width, height in ((80, 24), (200, 60)):
+            with Watched([self.run_folder], width, height) as watched:
+                text = self.to_the_end(watched)
+                nodes = self.nodes(text)
+                self.assertLessEqual(len(places(text)), nodes, text)
+                watched.type("t")
+                text = watched.wait_for(lambda text: not places(text), "no places")
+                self.assertTrue(has_plan(text), text)
+                self.assertEqual(self.nodes(text), nodes)
+                watched.type("t")
+                watched.wait_for(places, "places again")
+                watched.type("<")
+                watched.wait_for(lambda text: "frame 0 of 499" in text and not places(text), "nothing, for nothing is charted yet")
+                watched.type("q")
+                self.assertEqual(watched.end(), 0)
+                self.assertTrue(watched.is_whole())
+
+    def test_shows_what_the_plugin_draws(self):
+        with Watched([self.run_folder]) as watched:
+            text = self.to_the_end(watched)
+            state = re.search(r"nodes, loop open *\n[^│]*│ +(\w[\w ]*)", text)[1].rstrip()
+            self.assertIn(state, ("start", "seek", "follow", "turn", "settle", "advance", "sweep", "pass", "reverse", "round", "back off", "veer"))
+            watched.wait_for(lambda text: state in drawn(text), "the state beside the robot")
+            watched.type("w")
+            watched.wait_for(lambda text: state not in drawn(text), "no drawing")
+            watched.type("?")
+            watched.shows("what a plugin draws (hidden)")
+            watched.type("q")
+            self.assertEqual(watched.end(), 0)
+
+    def test_chart_in_ascii(self):
+        with Watched([self.run_folder, "--dots", "ascii"]) as watched:
+            watched.shows("frame")
+            watched.type(" >")
+            watched.wait_for(lambda text: self.LAST in text and "D" in "".join(row.split("|")[0] for row in text.splitlines()[1:-6]), "a step of the wall")
+            watched.type("q")
+            self.assertEqual(watched.end(), 0)
+
+    def test_run_that_is_watched_is_the_same(self):
+        out = pathlib.Path(self.folder.name) / "watched"
+        with Watched([self.SCENARIO, *self.OPTIONS, "--out", out, "--speed", "256"]) as watched:
+            watched.wait_for(lambda text: has_plan(text) and places(text), "plan, robot and chart")
+            watched.type("tw")
+            watched.type("tw f")
+            watched.shows("PAUSED")
+            watched.type(",,. ")
+            text = watched.shows("END")
+            self.assertIn("nodes, loop open", text)
+            watched.type("q")
+            self.assertEqual(watched.end(), 0)
+            self.assertTrue(watched.is_whole())
+        self.assert_same_run(out)
+
+    def test_ctrl_c_leaves_the_terminal_whole(self):
+        for arguments in ([self.run_folder], [self.SCENARIO, "--out", pathlib.Path(self.folder.name) / "interrupted", "--speed", "64"]):
+            with Watched(arguments) as watched:
+                watched.wait_for(lambda text: has_plan(text) and places(text), "plan, robot and chart")
+                watched.type("\x03")
+                self.assertEqual(watched.end(), 130)
+                self.assertTrue(watched.is_whole())
+
+    def test_lines(self):
+        ended = subprocess.run([HALLWAY, "watch", self.run_folder], stdin=subprocess.DEVNULL, capture_output=True, text=True, env=ENVIRONMENT)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        counts = [int(n) for n in re.findall(r"  (\d+) nodes?, loop open  \w", ended.stdout)]
+        self.assertGreaterEqual(counts[-1], 4)
+        self.assertEqual(counts, sorted(counts))
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "foxglove/seen_place.hpp"
 #include "geom/arrays.hpp"
 #include "log/run_log.hpp"
 #include "render/colour.hpp"
@@ -67,27 +68,20 @@ std::optional<Pose> pose_near(const std::vector<log::StampedPose>& poses, std::i
   return pose_of(*near);
 }
 
-/// Where a place is, and where the robot was.
-struct SeenPlace {
-  Vec3 place = Vec3::Zero();
-  Vec3 robot = Vec3::Zero();
-};
+using foxglove::SeenPlace;
 
 std::optional<SeenPlace> place_of(const log::TopologyNode& node, const Record& record,
                                   const Pose& T_world_path) {
   const bool has_truth = !record.truth.empty();
   const auto body = pose_near(has_truth ? record.truth : record.trajectory, node.t_ns);
   if (!body) return std::nullopt;
-  const Pose T_world_body = has_truth ? *body : T_world_path * *body;
-  return SeenPlace{T_world_body * Vec3(node.x_m, node.y_m, 0.0), T_world_body.t};
+  return foxglove::seen_from(node, has_truth ? *body : T_world_path * *body);
 }
 
 /// From the place away from the robot, or to it.
 void add_arrow(const log::TopologyNode& node, const SeenPlace& seen, double extent_m,
                render::Segments& arrows) {
-  Vec3 way = seen.place - seen.robot;
-  way.z() = 0.0;
-  way = node.direction * (way.norm() > 0.0 ? Vec3(way.normalized()) : Vec3::UnitX());
+  const Vec3 way = foxglove::step_way(node, seen);
   const double length_m =
       std::clamp(node.size_m.value_or(0.0), kShortestArrow * extent_m, kLongestArrow * extent_m);
   const Vec3 tip = seen.place + length_m * way;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace hallway::watch {
@@ -109,6 +110,8 @@ TEST_F(WatchLayers, CommandShowsTwoSecondsAhead) {
 TEST_F(WatchLayers, NothingOfARobotWithoutAPose) {
   Moment moment{.iteration = 1};
   moment.rays = {{Vec3::Zero(), Vec3(1, 0, 0), true}};
+  moment.topology = std::make_shared<const log::Topology>(log::Topology{.nodes = {{.id = 1}}});
+  moment.drawing = {{.points_m = {{0, 0}, {1, 0}}}};
   for (const Layer& layer : layers()) {
     const Grid grid = draw(layer.name, moment);
     for (int row = 0; row < 20; ++row) EXPECT_EQ(grid.row_text(row), "") << layer.name;

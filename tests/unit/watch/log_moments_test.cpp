@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 #include <hallway/range_scan.h>
 
+#include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "host/pipeline.hpp"
+#include "host/samples/frame_bytes.hpp"
+#include "log/run_log.hpp"
 #include "run/feed/drive_record.hpp"
 #include "run/feed/manifest.hpp"
 #include "run/feed/plugin_log.hpp"
@@ -96,6 +100,11 @@ void expect_same(const Moment& live, const Moment& logged) {
     EXPECT_EQ(live.pose->orientation, logged.pose->orientation);
     EXPECT_EQ(live.pose->map_epoch, logged.pose->map_epoch);
   }
+  ASSERT_EQ(live.topology != nullptr, logged.topology != nullptr);
+  if (live.topology) {
+    EXPECT_EQ(*live.topology, *logged.topology);
+  }
+  EXPECT_EQ(live.drawing, logged.drawing);
   EXPECT_EQ(live.command, logged.command);
   EXPECT_EQ(live.obeyed, logged.obeyed);
   EXPECT_EQ(live.contacts, logged.contacts);
@@ -143,6 +152,54 @@ TEST(LogMoments, AreThoseOfARigThatIsWatched) {
 
 TEST(LogMoments, AreThoseOfAMapperThatIsWatched) {
   expect_log_is_as_watched("office", {{"steps", "60"}});
+}
+
+TEST(LogMoments, AreThoseOfARobotThatChartsAndIsWatched) {
+  expect_log_is_as_watched("cubicles_faults", {{"steps", "400"}});
+}
+
+TEST(LogMoments, TopologyHoldsUntilTheNextOneAndADrawingForItsFrame) {
+  const test::TempFolder folder;
+  const fs::path file = folder.path() / "run.mcap";
+  log::FileOutput output(file);
+  log::RunLogWriter writer(output, "test", "{}");
+  log::Topology topology;
+  const auto add_node = [&] {
+    topology.nodes.push_back({.id = std::uint32_t(topology.nodes.size()), .kind = log::PlaceKind::kSweep});
+  };
+  host::FrameWriter frames;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    hw_frame_t frame{};
+    frame.size = sizeof frame;
+    frame.sequence = i;
+    frame.t_ns = i;
+    std::vector<std::byte> bytes;
+    frames.write_over(bytes, frame);
+    const log::FrameStamp stamp{i, i};
+    writer.add_frame(stamp, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (i == 1 || i == 3) {
+      add_node();
+      writer.add_topology(stamp, topology);
+      writer.add_drawing(stamp, {{.kind = log::DrawingKind::kText, .points_m = {{0, 0}}, .text = "seek"}});
+    }
+  }
+  writer.add_map({4, 4}, {});
+  add_node();
+  writer.add_topology({4, 4}, topology);  // of report(), which a run that goes on does not show
+  writer.finish();
+  LogMoments log(file);
+  for (int time = 0; time < 2; ++time, log.restart()) {
+    const std::vector<Moment> moments = read_all(log);
+    ASSERT_EQ(moments.size(), 5u);
+    EXPECT_EQ(moments[0].topology, nullptr);
+    for (const auto& [moment, nodes] :
+         {std::pair(1, 1u), std::pair(2, 1u), std::pair(3, 2u), std::pair(4, 2u)}) {
+      ASSERT_NE(moments[std::size_t(moment)].topology, nullptr) << moment;
+      EXPECT_EQ(moments[std::size_t(moment)].topology->nodes.size(), nodes) << moment;
+    }
+    EXPECT_EQ(moments[1].topology, moments[2].topology) << "in memory once";
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(moments[i].drawing.size(), i % 2) << i;
+  }
 }
 
 TEST(LogMoments, EndAtTheFirstDamage) {

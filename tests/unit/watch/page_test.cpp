@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -130,6 +132,27 @@ TEST(Page, PanelSaysHowPluginAndDriveAre) {
   for (const char* part :
        {"lost", "0.25 m/s", "by timeout, changed: speed", "1 contact\n", "landmarks 12", "eyes: 3 points"})
     EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;
+}
+
+TEST(Page, PanelSaysHowTheChartIs) {
+  const Scene scene = room();
+  Past past;
+  Moment moment{.iteration = 1};
+  const auto panel = [&] { return panel_lines({scene, past, moment}); };
+  const auto has = [&](const PanelLine& line) { return std::ranges::count(panel(), line) == 1; };
+  EXPECT_FALSE(has({"plugin", Role::kEstimate}));
+  log::Topology topology{.loop = log::LoopState::kClosed, .nodes = {{.id = 1}, {.id = 2}}};
+  moment.topology = std::make_shared<const log::Topology>(topology);
+  EXPECT_TRUE(has({"plugin", Role::kEstimate}));
+  EXPECT_TRUE(has({"  2 nodes, loop closed", Role::kText}));
+  topology.loop = log::LoopState::kUncertain;
+  topology.note = "two rooms read alike";
+  moment.topology = std::make_shared<const log::Topology>(topology);
+  EXPECT_TRUE(has({"  2 nodes, loop uncertain", Role::kContact}));
+  EXPECT_TRUE(has({"  two rooms read alike", Role::kDim}));
+  moment.topology = nullptr;
+  moment.drawing = {{.kind = log::DrawingKind::kText, .points_m = {{0, 0}}, .text = "sweep"}};
+  EXPECT_TRUE(has({"  sweep", Role::kDrawn}));
 }
 
 TEST(Page, PanelSaysHowMuchItLeavesOut) {

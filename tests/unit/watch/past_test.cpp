@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hallway/ext/log.h>
 
+#include <memory>
 #include <numbers>
 
 #include "geom/arrays.hpp"
@@ -144,6 +145,14 @@ TEST(LineMode, SaysErrorAndCommand) {
       log::ObeyedCommand{.linear_m_s = 0.3, .angular_rad_s = -0.1, .cause = log::CommandCause::kPlugin};
   EXPECT_EQ(mode.add(moment),
             "0.00 s  frame 0  at (0.00, 0.00) 0 deg  off by 0.000 m  0.30 m/s -0.10 rad/s (plugin)\n");
+}
+
+TEST(LineMode, SaysChartAndWhatThePluginWrites) {
+  LineMode mode(1.0);
+  Moment moment{.iteration = 0};
+  moment.topology = std::make_shared<const log::Topology>(log::Topology{.nodes = {{.id = 4}}});
+  moment.drawing = {{.kind = log::DrawingKind::kText, .points_m = {{0, 0}}, .text = "follow"}};
+  EXPECT_EQ(mode.add(moment), "0.00 s  frame 0  1 node, loop open  follow\n");
 }
 
 }  // namespace
