@@ -60,10 +60,11 @@ void draw_polyline(const log::DrawingItem& item, const Pose& pose, Role role, co
 }
 
 void draw_circle(const log::DrawingItem& item, const Pose& pose, Role role, const Drawing& drawing) {
-  const auto& [x, y] = item.points_m.front();
+  const Vec2 middle(item.points_m.front()[0], item.points_m.front()[1]);
   const auto corner = [&](int i) {
     const double angle = 2.0 * std::numbers::pi * i / kCircleSides;
-    return in_world(pose, x + item.radius_m * std::cos(angle), y + item.radius_m * std::sin(angle));
+    return in_world(pose, middle.x() + item.radius_m * std::cos(angle),
+                    middle.y() + item.radius_m * std::sin(angle));
   };
   for (int i = 0; i < kCircleSides; ++i) drawing.line({corner(i), corner(i + 1)}, role);
 }
