@@ -142,6 +142,17 @@ class EdgeScorer {
     const double slack_m = edge.from == edge.to ? 0.0 : kSamePass_m;
     return {edge.from, edge.to, edge.length_m, least_way(passes(edge.from), passes(edge.to), slack_m)};
   }
+  /// Whether the robot once drove the edge's way from its one node to its other one, with a length within the tolerance.
+  bool was_driven(const log::TopologyEdge& edge, const ScoreSettings& settings) {
+    for (const double begin : passes(edge.from)) {
+      for (const double end : passes(edge.to)) {
+        const double way_m = std::max(0.0, end - begin);
+        if (end < begin - kSamePass_m || (edge.from == edge.to && way_m == 0.0)) continue;
+        if (std::abs(edge.length_m - way_m) <= settings.gate_m + settings.length_share * way_m) return true;
+      }
+    }
+    return false;
+  }
   /// Whether an edge leads to a node that was met no later than the one where it begins; false where the chart does not have both.
   bool closes(const log::TopologyEdge& edge) const {
     const auto from = nodes_.find(edge.from), to = nodes_.find(edge.to);
@@ -168,9 +179,7 @@ LoopVerdict judge_loop(const log::Topology& chart, const TopologyTruth& truth, E
   if (chart.loop == log::LoopState::kOpen) return LoopVerdict::kOpen;
   if (chart.loop == log::LoopState::kUncertain) return LoopVerdict::kUncertain;
   const auto is_right = [&](const log::TopologyEdge& edge) {
-    if (!edges.closes(edge)) return true;
-    const std::optional<double> true_m = edges.score(edge).true_m;
-    return true_m && std::abs(edge.length_m - *true_m) <= settings.gate_m + settings.length_share * *true_m;
+    return !edges.closes(edge) || edges.was_driven(edge, settings);
   };
   return truth.came_around && std::ranges::all_of(chart.edges, is_right) ? LoopVerdict::kRightly
                                                                          : LoopVerdict::kWrongly;

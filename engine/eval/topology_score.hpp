@@ -90,7 +90,7 @@ struct ScoreSettings {
 ///
 /// Nodes are assigned to true ones one to one, as many as possible and by the least sum of distances: first to nodes of their kind, then what is left to
 /// demanded openings of the other kind and to demanded steps of the other direction. A closed loop is right if the robot came around and
-/// the way of every edge that leads to a node met no later than its begin was driven, with a length within `gate_m` and `length_share`. The order
+/// the way of every edge that leads to a node met no later than its begin was once driven, from any pass of the one to any later pass of the other, with a length within `gate_m` and `length_share`. The order
 /// of nodes and edges does not matter; ids are unique. O(n * poses) for n charted nodes, and assign().
 TopologyScore score_topology(const log::Topology& chart, const TopologyTruth& truth, const DrivenWay& way,
                              const ScoreSettings& settings = {});

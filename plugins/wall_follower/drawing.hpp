@@ -15,7 +15,7 @@ constexpr double kWallBehind = 0.5, kWallAhead = 1.0;  // of the wall that is sh
 inline const char* state_name(State state) {
   static constexpr const char* kNames[] = {"start",    "seek",  "follow", "turn",    "settle",
                                            "advance",  "sweep", "pass",   "reverse", "round",
-                                           "back off", "veer",  "done"};
+                                           "back off", "veer",  "cross", "retreat",  "done"};
   return kNames[static_cast<std::size_t>(state)];
 }
 

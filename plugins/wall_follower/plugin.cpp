@@ -98,10 +98,12 @@ class WallFollower final : public sdk::Plugin {
                                   std::to_string(follower_->last_view().depth_m) +
                                   " m: " + kNames[static_cast<int>(follower_->last_opening())]);
     }
+    for (const std::string& news : follower_->news())
+      host().log(HW_LOG_INFO, "frame " + std::to_string(frame.sequence) + ": " + news);
     if (follower_->chart().loop == loop_) return;
     loop_ = follower_->chart().loop;
-    const std::string what = loop_ == Loop::closed ? ": the loop is closed"
-                             : loop_ == Loop::uncertain
+    if (loop_ == Loop::closed) return;
+    const std::string what = loop_ == Loop::uncertain
                                  ? ": the wall reads like an earlier part of it, and it may be another one"
                                  : ": the wall reads like no earlier part of it";
     host().log(HW_LOG_INFO, "frame " + std::to_string(frame.sequence) + what);

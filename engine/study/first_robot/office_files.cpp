@@ -153,7 +153,7 @@ std::string office_scenario(const std::vector<std::string>& about, const std::st
   std::string text;
   for (const std::string& line : about) text += "# " + line + "\n";
   text += fmt::format(
-      "schema = \"hallway.scenario/1\"\nmap = {}\nseed = 1\nsteps = 16000\nperiod_s = 0.05\n\n[robot]\nfile "
+      "schema = \"hallway.scenario/1\"\nmap = {}\nseed = 1\nsteps = 32000\nperiod_s = 0.05\n\n[robot]\nfile "
       "= {}\n\n"
       "[robot.drive]\nturn_slip = {}\nturn_slip_noise = {}\n\n[sensor.eyes]\nmounted = "
       "false\n\n[sensor.compass]\nmounted = false\n\n"

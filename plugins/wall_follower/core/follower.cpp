@@ -18,22 +18,20 @@ Follower::Follower(const Body& body, const Options& options)
       options_(options),
       odometer_(body.wheel_base_m, options.turn_slip),
       wall_(options),
-      loops_(options) {
+      loops_(options),
+      explorer_(options) {
   chart_.note = "no wall yet";
+  loops_.begin(chart_);
 }
 
 Command Follower::step(const Senses& senses) {
+  news_.clear();
   sense(senses);
   if (senses.bump.in_the_way()) bumped(senses.bump);
   if (senses.bump.left_side || senses.bump.right_side) scraped(senses.bump);
   const Command command = act(senses);
-  if (!is_done()) return command;
-  state_ = State::done;
-  return {};
-}
-
-bool Follower::is_done() const {
-  return chart_.loop == Loop::closed || chart_.nodes.size() >= static_cast<std::size_t>(options_.most_nodes);
+  check_tour();
+  return state_ == State::done ? Command() : command;
 }
 
 void Follower::sense(const Senses& senses) {
@@ -60,7 +58,7 @@ void Follower::look_right() {
   if (!is_right_again_) right_again_way_ = odometer_.way_m();
   is_right_again_ = true;
   if (state_ == State::start || state_ == State::turn || state_ == State::back_off || state_ == State::veer ||
-      state_ == State::reverse)
+      state_ == State::reverse || state_ == State::retreat)
     return;
   WallPoint point;
   point.body = body_.infrared[kRight].point(range_m(kRight));
@@ -69,6 +67,8 @@ void Follower::look_right() {
   point.t_ns = t_ns_;
   point.from = odometer_.charted();
   last_right_ = point;
+  if (is_charting_ && !circuit_ && !is_crossing())
+    explorer_.see_wall(point.from.out(point.body), point.way_m);
   if (state_ != State::follow) return;
   const std::optional<Step> step = wall_.add(point);
   if (step) chart_step(*step);
@@ -124,6 +124,10 @@ Command Follower::act(const Senses& senses) {
       return back_off();
     case State::veer:
       return veer();
+    case State::cross:
+      return cross();
+    case State::retreat:
+      return retreat();
     case State::done:
       break;
   }

@@ -4,8 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "wall_follower/core/chart.hpp"
+#include "wall_follower/core/circuits.hpp"
+#include "wall_follower/core/explorer.hpp"
 #include "wall_follower/core/loop_finder.hpp"
 #include "wall_follower/core/median_filter.hpp"
 #include "wall_follower/core/odometer.hpp"
@@ -30,7 +34,9 @@ enum class State : std::uint8_t {
   round,     ///< goes on after a turn to the right, to the wall around the corner
   back_off,  ///< goes back from what it touched
   veer,      ///< goes past what it touched
-  done       ///< stands: the loop is closed, or the chart is full
+  cross,     ///< goes from an exit to another wall
+  retreat,   ///< goes back from a doorway into which it crossed
+  done       ///< stands: no exit is left, or the chart is full
 };
 
 /// Speeds that the robot is to have.
@@ -47,7 +53,7 @@ struct Closing {
 };
 
 /// Follows the wall on its right and charts it (thesis 2.2.4): discontinuities by infrared, openings by a sweep of the sonar while it stands. Rooms are passed, into hallways it turns right. It is done when the
-/// chart's string of landmarks closes a loop.
+/// chart's string of landmarks closes a loop and no exit is left that leads to a wall which is not known.
 class Follower {
  public:
   Follower(const Body& body, const Options& options);
@@ -61,7 +67,13 @@ class Follower {
   const Wall& wall() const { return wall_; }
   /// Range of a detector, free of single false readings; infinite where it sees nothing [m].
   double range_m(Look look) const { return filters_[look].range_m(); }
+  /// Of the loop that was closed last.
   const std::optional<Closing>& closing() const { return closing_; }
+  const Explorer& explorer() const { return explorer_; }
+  /// What has happened in the last iteration that is worth a line in a log.
+  const std::vector<std::string>& news() const { return news_; }
+  /// Whether the wall on its right is a known one.
+  bool is_touring() const { return circuit_.has_value(); }
   int bumps() const { return bumps_; }
   int sweeps() const { return sweeps_; }
   /// What the last sweep saw of an opening, and what it leads to.
@@ -91,6 +103,26 @@ class Follower {
   Command round();
   Command back_off();
   Command veer();
+  Command cross();
+  Command retreat();
+  void arrive();
+  bool is_in_doorway() const;
+
+  // What follows a loop (follower_tour.cpp).
+  void judge(const Node& node);
+  void close();
+  void join();
+  void begin_wall();
+  void localise(const Node& node);
+  void plan();
+  void finish(const std::string& note);
+  bool leaves_here() const;
+  /// Whether it is between two walls.
+  bool is_crossing() const;
+  void blocked_after_bump();
+  void leave();
+  void check_tour();
+  void correct(const Correction& by);
 
   void enter(State state);
   void turn_to(double heading, State next);
@@ -106,10 +138,11 @@ class Follower {
   void hide_edge();
   void bumped(const Bump& bump);
   void scraped(const Bump& bump);
-  void add_node(Kind kind, const WallPoint& at, double way_m, int direction, double size_m);
+  /// @return the id of the landmark; empty where it is of a known wall
+  std::optional<std::uint32_t> add_node(Kind kind, const WallPoint& at, double way_m, int direction,
+                                        double size_m);
   void add_node_here(Kind kind, const Vec2& body);
 
-  bool is_done() const;
   /// Along the wall's line at the distance asked for.
   Command along(double speed_m_s) const;
   Command turn_by(double rate_rad_s) const;
@@ -129,6 +162,19 @@ class Follower {
   LoopFinder loops_;
   LoopVerdict verdict_;
   std::optional<Closing> closing_;
+  std::vector<std::string> news_;
+  Explorer explorer_;
+  std::optional<std::size_t> circuit_;  // the known wall that is followed
+  double station_m_ = 0.0;              // on it, where the last landmark was
+  double station_way_ = 0.0;            // way then
+  double landing_error_m_ = 0.0;        // of the station, until a landmark is known
+  double matched_way_ = 0.0;            // way where a landmark was a known one last
+  double exit_way_ = 0.0;               // way at which the exit is expected
+  std::optional<Route> route_;
+  bool is_through_ = false;       // the crossing leads through an opening
+  std::optional<Edge> crossing_;  // that leads to the next landmark
+  double crossing_way_ = 0.0;     // where it began
+  int crossing_quarter_ = 0;
 
   State state_ = State::start;
   State next_ = State::follow;  // after a turn
@@ -148,8 +194,8 @@ class Follower {
   double opening_distance_ = 0.0;  // of the robot from the wall's line there
   WallPoint swept_;                // the middle of the opening that was swept last
   bool is_opening_charted_ = true;
-  std::size_t edge_node_ = 0;  // the end of the wall before it
-  int jamb_votes_ = 0;         // above 0: the wall goes on before a wall ahead
+  std::optional<std::uint32_t> edge_node_;  // the end of the wall before it
+  int jamb_votes_ = 0;                      // above 0: the wall goes on before a wall ahead
   OpeningView view_;
   Opening opening_ = Opening::hallway;
   double confidence_ = 1.0;     // of the way since the last node

@@ -68,10 +68,11 @@ Command Follower::follow() {
 
 /// A wall ahead: the way turns left, along it.
 void Follower::corner_ahead(bool charted) {
-  if (charted) add_node_here(Kind::corner, body_.infrared[kFront].point(range_m(kFront)));
+  const double front = std::isfinite(range_m(kFront)) ? range_m(kFront) : 0.0;
+  if (charted) add_node_here(Kind::corner, body_.infrared[kFront].point(front));
+  if (state_ == State::done) return;
   const Place& here = odometer_.reckoned();
   const double wall = wall_.direction();
-  const double front = std::isfinite(range_m(kFront)) ? range_m(kFront) : 0.0;
   const Vec2 ahead = here.out(body_.infrared[kFront].point(front));
   settles_ = rounds_ = 0;
   turn_to(wall + kQuarter, State::settle);
@@ -85,9 +86,8 @@ void Follower::wall_ended() {
   opening_distance_ = std::clamp(wall_.distance(odometer_.reckoned().at), 0.35, options_.distance_m);
   opening_ = Opening::hallway;
   jamb_votes_ = 0;
-  edge_node_ = chart_.nodes.size();
-  add_node(Kind::discontinuity, last_right_, last_right_.way_m, 1, kInfinite);
-  enter(State::advance);
+  edge_node_ = add_node(Kind::discontinuity, last_right_, last_right_.way_m, 1, kInfinite);
+  if (state_ != State::done) enter(State::advance);
 }
 
 /// The wall is there again behind an opening.
@@ -97,7 +97,7 @@ void Follower::wall_again() {
   add_node(Kind::discontinuity, last_right_, right_again_way_, -1, kInfinite);
   opening_ = Opening::hallway;
   wall_.expect(last_right_.at, direction);
-  enter(State::follow);
+  if (state_ != State::done) enter(State::follow);
 }
 
 double Follower::past_edge() const {
@@ -149,9 +149,18 @@ Command Follower::sweep(const Senses& senses) {
       WallPoint{here.out(Vec2(0.0, -wall)), odometer_.way_m(), t_ns_, odometer_.charted(), Vec2(0.0, -wall)};
   is_opening_charted_ = false;
   if (opening_ == Opening::covered) hide_edge();
+  if (is_swept && !circuit_ && opening_ != Opening::covered) {
+    const double slant = wall_.slant(here);
+    explorer_.see_exits(*senses.sweep, odometer_.charted().at, odometer_.quarter(slant), slant,
+                        odometer_.way_m(), opening_ == Opening::hallway);
+  }
+  if (leaves_here()) {
+    leave();
+    return {};
+  }
   if (opening_ == Opening::hallway) {
     add_opening(Kind::junction);
-    turn_right();
+    if (state_ != State::done) turn_right();
   } else {
     enter(State::pass);
   }
@@ -162,14 +171,16 @@ Command Follower::sweep(const Senses& senses) {
 void Follower::add_opening(Kind kind) {
   if (is_opening_charted_) return;
   is_opening_charted_ = true;
-  if (opening_ != Opening::covered)
-    add_node(kind, swept_, swept_.way_m, 0, std::numeric_limits<double>::quiet_NaN());
+  if (opening_ == Opening::covered) return;
+  const std::optional<std::uint32_t> id =
+      add_node(kind, swept_, swept_.way_m, 0, std::numeric_limits<double>::quiet_NaN());
+  if (id) explorer_.name_exits(id);
 }
 
 /// The wall's end was none: something dark stands there.
 void Follower::hide_edge() {
-  if (edge_node_ >= chart_.nodes.size()) return;
-  chart_.nodes[edge_node_].is_hidden = true;
+  if (!edge_node_) return;
+  chart_.node(*edge_node_).is_hidden = true;
   ++chart_.changes;
 }
 
@@ -183,7 +194,7 @@ Command Follower::pass() {
   if (front_is_blocked()) {
     if (is_dark || jamb_votes_ > 0) {
       add_opening(Kind::room);
-      corner_ahead(true);
+      if (state_ != State::done) corner_ahead(true);
     } else {
       enter(State::reverse);
     }
@@ -199,7 +210,7 @@ Command Follower::reverse() {
     return {-options_.speed_m_s, std::clamp(-2.0 * slant, -0.5, 0.5)};
   }
   add_opening(Kind::junction);
-  turn_right();
+  if (state_ != State::done) turn_right();
   return {};
 }
 
@@ -327,16 +338,27 @@ Command Follower::back_off() {
   if (veer_ == 0.0 || interrupted_ == State::veer) veer_ = veer_ == 0.0 ? kVeer : veer_;
   if (bumps_in_row_ >= 3) {
     bumps_in_row_ = 0;
-    corner_ahead(is_charting_);
+    blocked_after_bump();
     return {};
   }
   turn_to(wall_.direction() + veer_, State::veer);
   return {};
 }
 
+/// A wall ahead, after a bump.
+void Follower::blocked_after_bump() {
+  if (!is_crossing()) {
+    corner_ahead(is_charting_);
+    return;
+  }
+  interrupted_ = State::follow;
+  arrive();
+  corner_ahead(false);
+}
+
 Command Follower::veer() {
   if (front_is_blocked()) {
-    corner_ahead(is_charting_);
+    blocked_after_bump();
     return {};
   }
   if (in_state() < kVeerWay) return {0.7 * options_.speed_m_s, 0.0};
@@ -348,6 +370,8 @@ Command Follower::veer() {
     case State::pass:
     case State::round:
     case State::seek:
+    case State::cross:
+    case State::retreat:
       enter(interrupted_);
       break;
     default:
@@ -384,8 +408,9 @@ void Follower::add_node_here(Kind kind, const Vec2& body) {
   add_node(kind, here, here.way_m, 0, std::numeric_limits<double>::quiet_NaN());
 }
 
-void Follower::add_node(Kind kind, const WallPoint& at, double way_m, int direction, double size_m) {
-  if (!is_charting_ || chart_.loop == Loop::closed) return;
+std::optional<std::uint32_t> Follower::add_node(Kind kind, const WallPoint& at, double way_m, int direction,
+                                                double size_m) {
+  if (!is_charting_ || state_ == State::done) return std::nullopt;
   Node node;
   node.kind = kind;
   node.direction = direction;
@@ -396,19 +421,15 @@ void Follower::add_node(Kind kind, const WallPoint& at, double way_m, int direct
   node.is_hidden = opening_ == Opening::covered && (state_ == State::pass || state_ == State::sweep);
   node.way_m = way_m;
   node.quarter = odometer_.quarter(wall_.slant(odometer_.reckoned()));
-  chart_.add(node, confidence_);
-  confidence_ = 1.0;
-  verdict_ = loops_.add(chart_);
-  chart_.loop = verdict_.loop;
-  chart_.note = verdict_.loop == Loop::uncertain
-                    ? "the wall reads like an earlier part of it, and it may be another one"
-                    : "";
-  if (verdict_.loop == Loop::closed) {
-    const std::size_t first = first_sight(verdict_.same, verdict_.same.back().again);
-    closing_ = Closing{chart_.nodes[first].id, at.t_ns, at.body};
-    close_loop(chart_, verdict_.same);
+  if (circuit_) {
+    localise(node);
+    return std::nullopt;
   }
-  if (chart_.nodes.size() >= static_cast<std::size_t>(options_.most_nodes)) chart_.note = "the chart is full";
+  chart_.add(node, confidence_);
+  const std::uint32_t id = chart_.nodes.back().id;
+  judge(chart_.nodes.back());
+  confidence_ = 1.0;
+  return circuit_ ? std::nullopt : std::optional(id);
 }
 
 }  // namespace hallway::wall_follower

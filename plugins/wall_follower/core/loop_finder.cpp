@@ -8,10 +8,13 @@
 namespace hallway::wall_follower {
 namespace {
 
-constexpr int kWholeTurn = 4;
 constexpr std::size_t kMostSkipped = 3;  // landmarks of one lap between two pairs
 constexpr double kLeastScore = 0.2;      // of a pair, or its alignment ends
 constexpr int kLeastPairs = 5;
+constexpr double kStrong = 10.0;    // a score from which on a known wall may be far from where it is expected
+constexpr double kFarMargin = 4.0;  // that the next best place is below it then
+constexpr double kCrossingError = 2.0;  // [m]
+constexpr double kWide = 3.0;           // how many times as far off it may be then
 
 /// What a landmark adds to the score where it matches exactly.
 double worth(const Node& node) {
@@ -56,40 +59,68 @@ std::optional<double> way_difference(const Node& a, const Node& to_a, const Node
 
 }  // namespace
 
-bool LoopFinder::leads_back(const Node& first, const Node& again, double times) const {
-  const double lap = again.way_m - first.way_m;
-  return (again.at - first.at).norm() <= times * (options_.drift_m + options_.drift_per_m * lap);
+void LoopFinder::begin(const Chart& chart) {
+  places_.clear();
+  rows_.clear();
+  for (std::size_t circuit = 0; circuit < chart.circuits.size(); ++circuit) {
+    const std::vector<std::uint32_t>& lap = chart.circuits[circuit].lap;
+    for (std::size_t i = 0; i < 2 * lap.size(); ++i)
+      places_.push_back({chart.node(lap[i % lap.size()]), circuit, i % lap.size()});
+  }
+  known_ = places_.size();
 }
 
-LoopFinder::Cell LoopFinder::cell_of(const std::vector<Node>& nodes, std::size_t first,
-                                     std::size_t again) const {
+bool LoopFinder::leads_back(const Place& first, const Node& again, bool is_strong) const {
+  if (first.circuit && (again.quarter - first.node.quarter) % kWholeTurn != 0) return is_strong;
+  const double way = again.way_m - (first.circuit ? seen(0) : first.node).way_m;
+  // Where a crossing meets a wall is less certain than the way along it.
+  const double more = first.circuit && is_strong ? kCrossingError : 0.0;
+  const double drift = options_.drift_m + options_.drift_per_m * way;
+  return (again.at - first.node.at).norm() <= more + (is_strong ? kWide : 1.0) * drift;
+}
+
+bool LoopFinder::may_be_one(const Place& first, const Node& again) const {
+  if (first.circuit) return true;
+  const int turns = again.quarter - first.node.quarter;
+  return std::abs(turns) == kWholeTurn && again.way_m - first.node.way_m >= options_.least_lap_m;
+}
+
+/// Whether the landmarks of two pairs are turned by the same angle: of a known wall, less whole turns.
+bool LoopFinder::is_turned_alike(const Place& a, const Node& again_a, const Place& b, const Node& again_b) {
+  const int differs = (again_a.quarter - a.node.quarter) - (again_b.quarter - b.node.quarter);
+  return b.circuit ? differs % kWholeTurn == 0 : differs == 0;
+}
+
+LoopFinder::Cell LoopFinder::cell_of(std::size_t first, std::size_t again) const {
   Cell cell;
-  if (std::abs(nodes[again].quarter - nodes[first].quarter) != kWholeTurn) return cell;
-  if (nodes[again].way_m - nodes[first].way_m < options_.least_lap_m) return cell;
-  const std::optional<double> differs = difference(nodes[first], nodes[again]);
+  const Place& place = places_[first];
+  const Node& node = seen(again);
+  if (!may_be_one(place, node)) return cell;
+  const std::optional<double> differs = difference(place.node, node);
   if (!differs) return cell;
-  const double own = worth(nodes[first]) - *differs;
+  const double own = worth(place.node) - *differs;
   double best = 0.0;
   double missing_again = 0.0;
   for (std::size_t j = 1; j <= std::min(kMostSkipped + 1, again); ++j) {
     double missing = missing_again;
+    const std::vector<Cell>& row = rows_[again - j];
     for (std::size_t i = 1; i <= std::min(kMostSkipped + 1, first); ++i) {
-      const std::vector<Cell>& row = rows_[again - j];
-      const std::size_t a = first - i, b = again - j;
-      if (a < row.size() && row[a].score > 0.0F &&
-          nodes[b].quarter - nodes[a].quarter == nodes[again].quarter - nodes[first].quarter) {
-        const std::optional<double> way = way_difference(nodes[a], nodes[first], nodes[b], nodes[again]);
-        const double before = way ? static_cast<double>(row[a].score) - *way - missing : 0.0;
-        if (before > best) {
-          best = before;
+      const std::size_t a = first - i;
+      if (places_[a].circuit != place.circuit) break;
+      const Node& before = seen(again - j);
+      if (a < row.size() && row[a].score > 0.0F && is_turned_alike(places_[a], before, place, node)) {
+        const std::optional<double> way = way_difference(places_[a].node, place.node, before, node);
+        const double score = way ? static_cast<double>(row[a].score) - *way - missing : 0.0;
+        if (score > best) {
+          best = score;
           cell.first_back = static_cast<std::int8_t>(i);
           cell.again_back = static_cast<std::int8_t>(j);
           cell.length = row[a].length;
         }
       }
-      missing += cost_of_missing(nodes[first - i]);
+      missing += cost_of_missing(places_[a].node);
     }
-    missing_again += cost_of_missing(nodes[again - j]);
+    missing_again += cost_of_missing(seen(again - j));
   }
   cell.score = static_cast<float>(best + own);
   if (static_cast<double>(cell.score) < kLeastScore) return {};
@@ -97,69 +128,78 @@ LoopFinder::Cell LoopFinder::cell_of(const std::vector<Node>& nodes, std::size_t
   return cell;
 }
 
-bool LoopFinder::turns_between(const std::vector<Node>& nodes, std::size_t first, std::size_t again) const {
-  const int quarter = nodes[again].quarter;
+bool LoopFinder::turns_between(std::size_t first, std::size_t again) const {
+  const int quarter = seen(again).quarter;
   for (;;) {
     const Cell& cell = rows_[again][first];
-    if (nodes[again].quarter != quarter) return true;
+    if (seen(again).quarter != quarter) return true;
     if (cell.again_back == 0) return false;
     first -= static_cast<std::size_t>(cell.first_back);
     again -= static_cast<std::size_t>(cell.again_back);
   }
 }
 
-LoopVerdict LoopFinder::add(const Chart& chart) {
-  const std::vector<Node>& nodes = chart.nodes;
-  const std::size_t again = nodes.size() - 1;
-  std::vector<Cell> row(again);
-  for (std::size_t first = 0; first < again; ++first) row[first] = cell_of(nodes, first, again);
+LoopVerdict LoopFinder::add(const Node& node) {
+  const std::size_t again = rows_.size(), firsts = places_.size();
+  places_.push_back({node, std::nullopt, again});
+  std::vector<Cell> row(firsts);
+  for (std::size_t first = 0; first < firsts; ++first) row[first] = cell_of(first, again);
   rows_.push_back(std::move(row));
 
   LoopVerdict verdict;
   std::optional<std::size_t> best;
-  for (std::size_t first = 0; first < again; ++first) {
+  for (std::size_t first = 0; first < firsts; ++first) {
     const double score = static_cast<double>(rows_[again][first].score);
-    if (score <= verdict.score || !leads_back(nodes[first], nodes[again], 1.0)) continue;
+    const bool is_strong = places_[first].circuit && score >= kStrong;
+    if (score <= verdict.score || !leads_back(places_[first], node, is_strong)) continue;
     verdict.score = score;
     best = first;
   }
   if (!best) return verdict;
-  for (std::size_t first = 0; first < again; ++first) {
-    if (first != *best && leads_back(nodes[first], nodes[again], 3.0))
+  const Place& place = places_[*best];
+  for (std::size_t first = 0; first < firsts; ++first) {
+    const bool is_it = places_[first].circuit == place.circuit && places_[first].index == place.index;
+    if (!is_it && leads_back(places_[first], node, true))
       verdict.other = std::max(verdict.other, static_cast<double>(rows_[again][first].score));
   }
   if (verdict.score < options_.match_score || rows_[again][*best].length < kLeastPairs) return verdict;
-  const bool is_alone = verdict.score >= verdict.other + options_.match_margin;
-  verdict.loop = is_alone && turns_between(nodes, *best, again) ? Loop::closed : Loop::uncertain;
+  const bool is_far = !leads_back(place, node, false);
+  const bool is_alone = verdict.score >= verdict.other + (is_far ? kFarMargin : options_.match_margin);
+  const bool is_certain = is_far || turns_between(*best, again);
+  verdict.loop = is_alone && is_certain ? Loop::closed : Loop::uncertain;
   if (verdict.loop != Loop::closed) return verdict;
-  std::size_t first = *best, second = again;
-  for (;;) {
-    verdict.same.push_back({first, second});
-    const Cell& cell = rows_[second][first];
-    if (cell.again_back == 0) break;
-    first -= static_cast<std::size_t>(cell.first_back);
-    second -= static_cast<std::size_t>(cell.again_back);
-  }
-  std::reverse(verdict.same.begin(), verdict.same.end());
+  verdict.circuit = place.circuit;
+  verdict.same = pairs_of(*best, again);
   return verdict;
 }
 
-std::size_t first_sight(const std::vector<SameLandmark>& same, std::size_t node) {
-  for (auto pair = same.rbegin(); pair != same.rend(); ++pair) {
-    if (pair->again == node) node = pair->first;
+std::vector<SameLandmark> LoopFinder::pairs_of(std::size_t first, std::size_t again) const {
+  std::vector<SameLandmark> same;
+  for (;;) {
+    same.push_back({places_[first].index, again});
+    const Cell& cell = rows_[again][first];
+    if (cell.again_back == 0) break;
+    first -= static_cast<std::size_t>(cell.first_back);
+    again -= static_cast<std::size_t>(cell.again_back);
   }
-  return node;
+  std::reverse(same.begin(), same.end());
+  return same;
 }
 
-void close_loop(Chart& chart, const std::vector<SameLandmark>& same) {
-  const SameLandmark& joint = same.front();
-  for (const SameLandmark& pair : same) ++chart.nodes[first_sight(same, pair.again)].visits;
-  Edge back = chart.edges[joint.again - 1];  // that led to the first landmark seen again
-  back.to = chart.nodes[joint.first].id;
-  chart.nodes.resize(joint.again);
-  chart.edges.resize(joint.again - 1);
-  chart.edges.push_back(back);
-  ++chart.changes;
+std::vector<SameLandmark> LoopFinder::best_with(std::size_t circuit) const {
+  double least_score = options_.match_score;
+  std::optional<SameLandmark> best;
+  for (std::size_t again = 0; again < rows_.size(); ++again) {
+    for (std::size_t first = 0; first < known_; ++first) {
+      const double score = static_cast<double>(rows_[again][first].score);
+      if (places_[first].circuit != circuit || score < least_score) continue;
+      if (rows_[again][first].length < kLeastPairs || !leads_back(places_[first], seen(again), true))
+        continue;
+      least_score = score;
+      best = SameLandmark{first, again};
+    }
+  }
+  return best ? pairs_of(best->first, best->again) : std::vector<SameLandmark>();
 }
 
 }  // namespace hallway::wall_follower

@@ -10,29 +10,35 @@
 
 namespace hallway::wall_follower {
 
-/// A pair of nodes that are one landmark, seen in two laps.
+/// A pair of landmarks that are one, seen twice.
 struct SameLandmark {
-  std::size_t first, again;  ///< indices into Chart::nodes, first < again
+  std::size_t first;  ///< index in the wall that is followed, or in Circuit::lap
+  std::size_t again;  ///< index in the wall that is followed
 };
 
-/// What the string of landmarks says of a loop.
+/// What the string of landmarks says of the wall that is followed.
 struct LoopVerdict {
   Loop loop = Loop::open;
-  std::vector<SameLandmark> same;  ///< of a closed loop, ascending
+  std::optional<std::size_t>
+      circuit;  ///< of a closed loop: the known wall that it is, as an index in Chart::circuits; empty: one of its own
+  std::vector<SameLandmark> same;  ///< of a closed loop, in the order of the way
   double score = 0.0;              ///< of the best place
   double other = 0.0;              ///< of the next best one
 };
 
-/// Finds where the string of landmarks repeats itself: a local alignment (Smith and Waterman, 1981) of the landmarks seen last with earlier ones. A pair of landmarks that match by kind, direction and size adds to the score; their
-/// differences, the difference of the ways since the pair before, and landmarks that are only in one of the laps take from it. Both of a pair are a whole turn apart, left or right: a wall that leads back to
-/// its beginning turns by 360 degrees.
+/// Finds where the string of landmarks repeats itself: a local alignment (Smith and Waterman, 1981) of the landmarks seen last with earlier ones, and with those of walls that are known. A pair of landmarks
+/// that match by kind, direction and size adds to the score; their differences, the difference of the ways since the pair before, and landmarks that are only in one of the strings take from it. Both of a pair
+/// are a whole turn apart, left or right: a wall that leads back to its beginning turns by 360 degrees. Those of a known wall are all turned by the same angle, which is 0 unless a turn was miscounted.
 class LoopFinder {
  public:
   explicit LoopFinder(const Options& options) : options_(options) {}
 
-  void clear() { rows_.clear(); }
-  /// Takes the last node of the chart. O(nodes).
-  LoopVerdict add(const Chart& chart);
+  /// Begins a wall. The circuits of the chart are known walls.
+  void begin(const Chart& chart);
+  /// Takes the next landmark of the wall. O(landmarks).
+  LoopVerdict add(const Node& node);
+  /// The best alignment of landmarks of the wall with those of a known one: pairs in the order of the way; empty where there is none with `match_score`.
+  std::vector<SameLandmark> best_with(std::size_t circuit) const;
 
  private:
   struct Cell {
@@ -40,20 +46,29 @@ class LoopFinder {
     std::int8_t first_back = 0, again_back = 0;  ///< to the pair before; 0: there is none
     std::int16_t length = 0;                     ///< pairs
   };
+  /// A landmark of a known wall, or of the one that is followed.
+  struct Place {
+    Node node;
+    std::optional<std::size_t> circuit;
+    std::size_t index = 0;  ///< in the lap, or in the wall
+  };
 
-  Cell cell_of(const std::vector<Node>& nodes, std::size_t first, std::size_t again) const;
+  const Node& seen(std::size_t again) const { return places_[known_ + again].node; }
+  Cell cell_of(std::size_t first, std::size_t again) const;
+  bool may_be_one(const Place& first, const Node& again) const;
   /// Whether the wall turns along the landmarks of an alignment: along a straight wall places may be alike that are none.
-  bool turns_between(const std::vector<Node>& nodes, std::size_t first, std::size_t again) const;
-  bool leads_back(const Node& first, const Node& again, double times) const;
+  /// The pairs of an alignment, by its last one.
+  std::vector<SameLandmark> pairs_of(std::size_t first, std::size_t again) const;
+  bool turns_between(std::size_t first, std::size_t again) const;
+  static bool is_turned_alike(const Place& a, const Node& again_a, const Place& b, const Node& again_b);
+  /// Whether the reckoned way does not speak against a pair. It counts less where the score is strong, and nothing then where a turn was miscounted on the way to a known wall.
+  bool leads_back(const Place& first, const Node& again, bool is_strong) const;
 
   Options options_;
-  std::vector<std::vector<Cell>> rows_;  ///< [again][first]
+  std::vector<Place>
+      places_;  // laps of known walls, each twice, so that an alignment may go on over its end; then the wall
+  std::size_t known_ = 0;                // number of those of known walls
+  std::vector<std::vector<Cell>> rows_;  // [again][index in places_]
 };
-
-/// The first sight of the landmark of a node. @param same  pairs, ascending
-std::size_t first_sight(const std::vector<SameLandmark>& same, std::size_t node);
-
-/// One lap of a closed loop: landmarks that were seen twice are one, with their visits added, and an edge leads from the end of the lap to its beginning.
-void close_loop(Chart& chart, const std::vector<SameLandmark>& same);
 
 }  // namespace hallway::wall_follower

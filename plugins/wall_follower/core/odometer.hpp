@@ -38,11 +38,13 @@ class Odometer {
   /// Share of turns that is lost, as learnt from walls.
   double turn_slip() const { return slip_; }
 
+  /// Sets the place for the chart.
+  void place(const Vec2& at, double heading) { charted_ = {at, heading}; }
   /// Takes the wall's direction, the present heading less `slant`, as zero.
   void align_first(double slant);
   /// Takes the wall's direction as the multiple of 90 degrees next to it, after a turn. The error also teaches how much the tracks slip.
   void align_after_turn(double slant);
-  /// Corrects the heading by a share of the error, where the wall is within some degrees of a multiple of 90 degrees: others are no walls of this kind, or curved.
+  /// Corrects the heading by a share of the error, where the wall is within some degrees of a multiple of 90 degrees, and more after a curve: others are no walls of this kind.
   void align_on_way(double slant);
 
  private:
@@ -57,6 +59,7 @@ class Odometer {
   Place reckoned_, charted_;
   double way_m_ = 0.0;
   int turns_ = 1;            // of which the slip is learnt, and what was known before
+  double curve_ = 0.0;       // turns of the tracks to both sides, since a wall was along an axis
   double track_turn_ = 0.0;  // of the tracks, since the heading was aligned
 };
 

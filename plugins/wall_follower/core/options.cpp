@@ -41,6 +41,10 @@ constexpr OptionRow<Options> kParameters[] = {
     {"drift_m", "m", 0.05, 10.0, "How far the reckoned way of a lap may be from leading back.",
      &Options::drift_m},
     {"drift_per_m", "1", 0.0, 1.0, "What this grows by for each metre of the lap.", &Options::drift_per_m},
+    {"exploration", "1", 0, 2,
+     "Which opening is next after a loop: 0 none, and the robot stands; 1 the next one along the wall on its "
+     "right; 2 the one with the least way there and across.",
+     &Options::exploration},
     {"most_nodes", "nodes", 8, 4000, "Nodes of a chart; with more the robot stops.", &Options::most_nodes},
 };
 

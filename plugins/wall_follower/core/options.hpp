@@ -30,6 +30,7 @@ struct Options {
   double least_lap_m = 3.0;        ///< a loop is not shorter
   double drift_m = 0.4;            ///< how far the way of a lap may be from leading back
   double drift_per_m = 0.05;       ///< likewise, for each metre of it
+  int exploration = 1;             ///< which opening is next after a loop, an Exploration
   int most_nodes = 400;            ///< of a chart
 };
 

@@ -264,7 +264,7 @@ TEST(FirstRobotOffices, TheirScenariosDifferByFaults) {
   const sim::Scenario plain = sim::load_scenario(files[1]), faulty = sim::load_scenario(files[2]);
   EXPECT_EQ(plain.map_file, files[0]);
   EXPECT_EQ(faulty.map_file, files[0]);
-  EXPECT_EQ(plain.steps, 16000u);
+  EXPECT_EQ(plain.steps, 32000u);
   EXPECT_EQ(plain.period_ns, 50'000'000);
   ASSERT_EQ(plain.settings.size(), faulty.settings.size());
   std::set<std::string> changed;

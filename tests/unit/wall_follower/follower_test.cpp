@@ -14,8 +14,15 @@ namespace {
 
 constexpr double kSamePlace = 0.5;  // [m]
 
+/// It stands after the first loop.
+Options first_loop() {
+  Options options;
+  options.exploration = 0;
+  return options;
+}
+
 Drive driven(const Scene& scene, double seconds = 600.0) {
-  Drive drive(scene.plan, scene.start);
+  Drive drive(scene.plan, scene.start, {}, 1, first_loop());
   drive.run(seconds);
   return drive;
 }
@@ -42,17 +49,39 @@ void expect_closed(const Drive& drive) {
   EXPECT_EQ(drive.follower.state(), State::done);
 }
 
-/// Edges lead from node to node, and the last one back.
-void expect_ring(const Chart& chart) {
-  ASSERT_EQ(chart.edges.size(), chart.nodes.size());
-  int turns = 0;
-  for (std::size_t i = 0; i < chart.edges.size(); ++i) {
-    EXPECT_EQ(chart.edges[i].from, chart.nodes[i].id);
-    EXPECT_EQ(chart.edges[i].to, i + 1 < chart.nodes.size() ? chart.nodes[i + 1].id : chart.edges.back().to);
-    EXPECT_GT(chart.edges[i].confidence, 0.0);
-    if (chart.nodes[i].id >= chart.edges.back().to) turns += chart.edges[i].quarter_turns;
+/// Each lap is a ring: from each of its landmarks one edge leads along the wall to the next one, and the last one leads back.
+void expect_rings(const Chart& chart) {
+  ASSERT_FALSE(chart.circuits.empty());
+  for (const Circuit& circuit : chart.circuits) {
+    int turns = 0;
+    double length = 0.0;
+    for (std::size_t i = 0; i < circuit.lap.size(); ++i) {
+      const std::uint32_t next = circuit.lap[(i + 1) % circuit.lap.size()];
+      const auto edge = std::find_if(chart.edges.begin(), chart.edges.end(), [&](const Edge& one) {
+        return one.from == circuit.lap[i] && !one.is_crossing;
+      });
+      ASSERT_NE(edge, chart.edges.end());
+      EXPECT_EQ(edge->to, next);
+      EXPECT_GT(edge->confidence, 0.0);
+      turns += edge->quarter_turns;
+      length += edge->length_m;
+    }
+    EXPECT_EQ(std::abs(turns), 4);
+    EXPECT_NEAR(length, circuit.length_m, 0.1);
   }
-  EXPECT_EQ(std::abs(turns), 4);
+}
+
+/// Walls that are closed, and that what is charted of them is where it was seen.
+void expect_explored(const Drive& drive, std::size_t circuits) {
+  const Chart& chart = drive.follower.chart();
+  EXPECT_EQ(drive.follower.state(), State::done);
+  EXPECT_EQ(chart.circuits.size(), circuits);
+  EXPECT_EQ(drive.follower.explorer().left(), 0U);
+  expect_rings(chart);
+  for (const Edge& edge : chart.edges) {
+    const Node &from = chart.node(edge.from), &to = chart.node(edge.to);
+    EXPECT_GT(edge.length_m + 1.2, (drive.place_of(from) - drive.place_of(to)).norm());
+  }
 }
 
 TEST(Follower, StandsWithoutReadings) {
@@ -84,7 +113,7 @@ TEST(Follower, GoesRoundARoom) {
   EXPECT_EQ(drive.follower.sweeps(), 0);
   EXPECT_EQ(count(drive.follower.chart(), Kind::corner), 4U);
   EXPECT_EQ(drive.follower.chart().nodes.size(), 4U);
-  expect_ring(drive.follower.chart());
+  expect_rings(drive.follower.chart());
   for (const Node& node : drive.follower.chart().nodes) EXPECT_EQ(node.quarter, static_cast<int>(node.id));
 }
 
@@ -92,7 +121,7 @@ TEST(Follower, GoesRoundABlock) {
   const Drive drive = driven(block());
   expect_closed(drive);
   const Chart& chart = drive.follower.chart();
-  expect_ring(chart);
+  expect_rings(chart);
   EXPECT_EQ(count(chart, Kind::junction), 4U);
   EXPECT_TRUE(has_step(drive, 1, INFINITY, {8, 8}));
   EXPECT_TRUE(has_step(drive, 1, INFINITY, {8, 11}));
@@ -114,7 +143,7 @@ TEST(Follower, PassesRooms) {
   const Drive drive = driven(doors());
   expect_closed(drive);
   const Chart& chart = drive.follower.chart();
-  expect_ring(chart);
+  expect_rings(chart);
   EXPECT_EQ(count(chart, Kind::room), 3U);
   EXPECT_EQ(count(chart, Kind::junction), 0U);
   EXPECT_EQ(count(chart, Kind::corner), 4U);
@@ -222,6 +251,64 @@ TEST(Follower, IsTheSameEachTime) {
     EXPECT_EQ(one.follower.chart().nodes[i].body, other.follower.chart().nodes[i].body);
     EXPECT_EQ(one.follower.chart().nodes[i].t_ns, other.follower.chart().nodes[i].t_ns);
   }
+}
+
+TEST(Follower, CrossesFromABlockToTheWallRoundIt) {
+  const Scene scene = block();
+  Drive drive(scene.plan, scene.start);
+  drive.run(1200.0);
+  expect_explored(drive, 2);
+  EXPECT_EQ(count(drive.follower.chart(), Kind::junction), 4U);
+  EXPECT_EQ(count(drive.follower.chart(), Kind::corner), 4U);  // of the room
+  EXPECT_EQ(std::count_if(drive.follower.chart().edges.begin(), drive.follower.chart().edges.end(),
+                          [](const Edge& edge) { return edge.is_crossing; }),
+            1);
+}
+
+TEST(Follower, ExploresBothSidesOfAHallway) {
+  const Scene scene = ring();
+  Drive drive(scene.plan, scene.start);
+  drive.run(1200.0);
+  expect_explored(drive, 2);
+}
+
+TEST(Follower, ExploresByCostToo) {
+  Options options;
+  options.exploration = 2;
+  const Scene scene = ring();
+  Drive drive(scene.plan, scene.start, {}, 1, options);
+  drive.run(1200.0);
+  expect_explored(drive, 2);
+}
+
+TEST(Follower, DoesNotEnterRoomsOnItsWayAcross) {
+  // The robot begins at the block, and a doorway of the outer wall is opposite to the end of the block's wall.
+  const Scene scene = doors();
+  Drive drive(scene.plan, {{3.0, 1.1}, std::numbers::pi});
+  drive.run(1800.0, [&] {
+    const Vec2 at = drive.world.truth().at;
+    EXPECT_GT(at.y(), -0.3);
+    EXPECT_LT(at.x(), 11.5);
+  });
+  expect_explored(drive, 2);
+  EXPECT_EQ(count(drive.follower.chart(), Kind::room), 3U);
+}
+
+TEST(Follower, ExploresWithFaults) {
+  int whole = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene = ring();
+    Drive drive(scene.plan, scene.start, stated_faults(), seed);
+    drive.run(3000.0);
+    if (drive.follower.chart().circuits.size() == 2 && drive.follower.state() == State::done) ++whole;
+    for (const Circuit& circuit : drive.follower.chart().circuits) {
+      // One lap of the block or of the wall round it.
+      const bool is_block = std::abs(circuit.length_m - (28.0 + 8.0 * 0.47)) < 3.0;
+      const bool is_around = std::abs(circuit.length_m - (40.8 - 8.0 * 0.47)) < 3.0;
+      EXPECT_TRUE(is_block || is_around) << circuit.length_m;
+    }
+  }
+  EXPECT_GE(whole, 4);
 }
 
 TEST(Follower, StopsWhenTheChartIsFull) {

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
+
+#include "wall_follower/core/circuits.hpp"
 
 namespace hallway::wall_follower {
 namespace {
@@ -38,7 +41,7 @@ const std::vector<Mark> kLap{{Kind::discontinuity, 1, 0.2, 1.3},
 /// Feeds a finder with landmarks, as a follower would.
 class Walk {
  public:
-  explicit Walk(const Options& options = {}) : finder(options) {}
+  explicit Walk(const Options& options = {}) : finder(options), options_(options) { finder.begin(chart); }
 
   LoopVerdict go(const Mark& mark) {
     quarter_ += mark.turn;
@@ -52,13 +55,21 @@ class Walk {
     node.way_m = way_;
     node.quarter = quarter_;
     chart.add(node, 1.0);
-    return finder.add(chart);
+    return finder.add(chart.nodes.back());
+  }
+
+  /// Closes the loop, and begins another wall with so many turns miscounted.
+  void close(const LoopVerdict& verdict, int miscounted = 0) {
+    close_loop(chart, verdict.same, options_);
+    finder.begin(chart);
+    quarter_ += miscounted;
   }
 
   Chart chart;
   LoopFinder finder;
 
  private:
+  Options options_;
   Vec2 at_ = Vec2::Zero();
   double way_ = 0.0;
   int quarter_ = 0;
@@ -173,14 +184,71 @@ TEST(LoopFinder, ClosingKeepsOneLap) {
   for (const Mark& mark : marks) {
     const LoopVerdict verdict = walk.go(mark);
     if (verdict.loop != Loop::closed) continue;
-    close_loop(walk.chart, verdict.same);
-    ASSERT_EQ(walk.chart.nodes.size(), kLap.size() + verdict.same.front().first);
-    ASSERT_EQ(walk.chart.edges.size(), walk.chart.nodes.size());
-    EXPECT_EQ(walk.chart.edges.back().to, walk.chart.nodes[verdict.same.front().first].id);
-    EXPECT_EQ(walk.chart.nodes[verdict.same.front().first].visits, 2U);
+    close_loop(walk.chart, verdict.same, {});
+    ASSERT_EQ(walk.chart.circuits.size(), 1U);
+    const Circuit& circuit = walk.chart.circuits.front();
+    ASSERT_EQ(circuit.lap.size(), kLap.size());
+    EXPECT_EQ(walk.chart.nodes.size(), kLap.size());  // what leads in is of the lap
+    ASSERT_EQ(walk.chart.edges.size(), kLap.size());
+    EXPECT_EQ(walk.chart.edges.back().to, circuit.lap.front());
+    EXPECT_EQ(walk.chart.node(circuit.lap.front()).visits, 2U);
+    double length = 0.0;
+    for (const Mark& one : kLap) length += one.way_m;
+    EXPECT_NEAR(circuit.length_m, length, 1e-9);
     return;
   }
   FAIL();
+}
+
+/// A walk with one lap that is closed. @param next  the mark of laps(3) that is next
+std::optional<Walk> closed_walk(int miscounted, std::size_t& next) {
+  Walk walk;
+  const std::vector<Mark> marks = laps(2);
+  for (next = 0; next < marks.size(); ++next) {
+    const LoopVerdict verdict = walk.go(marks[next]);
+    if (verdict.loop != Loop::closed) continue;
+    walk.close(verdict, miscounted);
+    ++next;
+    return walk;
+  }
+  return std::nullopt;
+}
+
+TEST(LoopFinder, AKnownWallIsKnown) {
+  for (const int miscounted : {0, 1, 2, -1}) {
+    std::size_t next = 0;
+    std::optional<Walk> walk = closed_walk(miscounted, next);
+    ASSERT_TRUE(walk);
+    const std::size_t known = walk->chart.nodes.size();
+    std::optional<LoopVerdict> found;
+    const std::vector<Mark> marks = laps(3);
+    for (; next < marks.size() && !found; ++next) {
+      const LoopVerdict verdict = walk->go(marks[next]);
+      if (verdict.loop == Loop::closed) found = verdict;
+    }
+    ASSERT_TRUE(found) << miscounted;
+    ASSERT_EQ(found->circuit, 0U) << miscounted;
+    const Node& again = walk->chart.wall()[found->same.back().again];
+    const Node& first = walk->chart.node(walk->chart.circuits[0].lap[found->same.back().first]);
+    EXPECT_EQ(first.kind, again.kind);
+    const Correction correction = join_circuit(walk->chart, 0, found->same);
+    EXPECT_EQ((correction.turns + miscounted) % 4, 0) << miscounted;
+    EXPECT_EQ(walk->chart.nodes.size(), known);
+    for (const Edge& edge : walk->chart.edges)
+      EXPECT_TRUE(walk->chart.has(edge.from) && walk->chart.has(edge.to));
+  }
+}
+
+TEST(LoopFinder, AnotherWallIsNotAKnownOne) {
+  std::size_t next = 0;
+  std::optional<Walk> walk = closed_walk(0, next);
+  ASSERT_TRUE(walk);
+  std::vector<Mark> marks = laps(1);
+  for (Mark& mark : marks) {
+    mark.direction = -mark.direction;
+    mark.way_m *= 1.3;
+  }
+  for (const Mark& mark : marks) EXPECT_NE(walk->go(mark).loop, Loop::closed);
 }
 
 TEST(LoopFinder, FirstSightsOfLandmarksSeenThrice) {

@@ -182,7 +182,7 @@ void Drive::run(double seconds, const std::function<void()>& each) {
 
 double Drive::closing_error() const {
   if (!follower.closing()) return std::nan("");
-  const Node& node = follower.chart().nodes.at(follower.closing()->node);
+  const Node& node = follower.chart().node(follower.closing()->node);
   return (world.truth_at(follower.closing()->t_ns).out(follower.closing()->body) - place_of(node)).norm();
 }
 
