@@ -49,6 +49,11 @@ void Explorer::begin() {
   std::erase_if(exits_, [](const Exit& exit) { return !exit.circuit; });
 }
 
+void Explorer::forget(double from_m) {
+  std::erase_if(wall_, [&](const Point& point) { return point.way_m > from_m; });
+  std::erase_if(exits_, [&](const Exit& exit) { return !exit.circuit && exit.way_m > from_m; });
+}
+
 void Explorer::see_wall(const Vec2& at, double way_m) {
   if (!wall_.empty() && (wall_.back().at - at).norm() < kSpacing) return;
   wall_.push_back({at, way_m});

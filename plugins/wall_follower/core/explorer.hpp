@@ -60,6 +60,8 @@ class Explorer {
 
   /// Begins a wall that is not known. What is of one that was not closed is forgotten.
   void begin();
+  /// Forgets what was seen of the wall behind a way along it.
+  void forget(double from_m);
   /// The wall is at that point.
   void see_wall(const Vec2& at, double way_m);
   /// A sweep at an opening. @param from  where the robot stands  @param slant  from the wall's direction to the robot's [rad]

@@ -112,6 +112,10 @@ class Follower {
   void judge(const Node& node);
   void close();
   void join();
+  bool is_side_room() const;
+  void leave_room();
+  void take_back_lap(const Node& first_sight, const Node& second_sight, std::size_t kept);
+  void open_door();
   void begin_wall();
   void localise(const Node& node);
   void plan();
@@ -167,6 +171,7 @@ class Follower {
   std::optional<std::size_t> circuit_;  // the known wall that is followed
   double station_m_ = 0.0;              // on it, where the last landmark was
   double station_way_ = 0.0;            // way then
+  bool is_leaving_room_ = false;        // through the next opening
   double landing_error_m_ = 0.0;        // of the station, until a landmark is known
   double matched_way_ = 0.0;            // way where a landmark was a known one last
   double exit_way_ = 0.0;               // way at which the exit is expected

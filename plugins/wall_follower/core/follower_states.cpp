@@ -143,13 +143,16 @@ Command Follower::sweep(const Senses& senses) {
     view_ = view_of(*senses.sweep, -kQuarter - wall_.slant(here), options_);
     opening_ = classify(view_, wall, options_);
   }
+  const bool is_door = is_leaving_room_ && opening_ == Opening::room;
+  if (is_door) opening_ = Opening::hallway;
   // What the robot touched on the way is too near for the sonar.
   if (odometer_.way_m() < keep_until_) opening_ = Opening::covered;
   swept_ =
       WallPoint{here.out(Vec2(0.0, -wall)), odometer_.way_m(), t_ns_, odometer_.charted(), Vec2(0.0, -wall)};
   is_opening_charted_ = false;
+  if (is_door) open_door();
   if (opening_ == Opening::covered) hide_edge();
-  if (is_swept && !circuit_ && opening_ != Opening::covered) {
+  if (is_swept && !circuit_ && opening_ != Opening::covered && !is_opening_charted_) {
     const double slant = wall_.slant(here);
     explorer_.see_exits(*senses.sweep, odometer_.charted().at, odometer_.quarter(slant), slant,
                         odometer_.way_m(), opening_ == Opening::hallway);
@@ -160,6 +163,7 @@ Command Follower::sweep(const Senses& senses) {
   }
   if (opening_ == Opening::hallway) {
     add_opening(Kind::junction);
+    is_leaving_room_ = false;
     if (state_ != State::done) turn_right();
   } else {
     enter(State::pass);
@@ -429,7 +433,7 @@ std::optional<std::uint32_t> Follower::add_node(Kind kind, const WallPoint& at, 
   const std::uint32_t id = chart_.nodes.back().id;
   judge(chart_.nodes.back());
   confidence_ = 1.0;
-  return circuit_ ? std::nullopt : std::optional(id);
+  return circuit_ || !chart_.has(id) ? std::nullopt : std::optional(id);
 }
 
 }  // namespace hallway::wall_follower

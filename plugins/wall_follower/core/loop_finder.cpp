@@ -70,6 +70,11 @@ void LoopFinder::begin(const Chart& chart) {
   known_ = places_.size();
 }
 
+void LoopFinder::forget(std::size_t from) {
+  rows_.resize(from);
+  places_.resize(known_ + from);
+}
+
 bool LoopFinder::leads_back(const Place& first, const Node& again, bool is_strong) const {
   if (first.circuit && (again.quarter - first.node.quarter) % kWholeTurn != 0) return is_strong;
   const double way = again.way_m - (first.circuit ? seen(0) : first.node).way_m;

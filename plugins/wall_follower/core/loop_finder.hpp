@@ -37,6 +37,8 @@ class LoopFinder {
   void begin(const Chart& chart);
   /// Takes the next landmark of the wall. O(landmarks).
   LoopVerdict add(const Node& node);
+  /// Takes back the landmarks from one on.
+  void forget(std::size_t from);
   /// The best alignment of landmarks of the wall with those of a known one: pairs in the order of the way; empty where there is none with `match_score`.
   std::vector<SameLandmark> best_with(std::size_t circuit) const;
 

@@ -40,6 +40,8 @@ class Odometer {
 
   /// Sets the place for the chart.
   void place(const Vec2& at, double heading) { charted_ = {at, heading}; }
+  /// Takes back a way, as if it had not been driven.
+  void take_back(double way_m) { way_m_ -= way_m; }
   /// Takes the wall's direction, the present heading less `slant`, as zero.
   void align_first(double slant);
   /// Takes the wall's direction as the multiple of 90 degrees next to it, after a turn. The error also teaches how much the tracks slip.
