@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/median.hpp"
 
@@ -94,43 +93,26 @@ struct Surest {
   bool is_sure = false;
 };
 
-Surest surest_of(const std::vector<double>& ways, const std::vector<bool>& may_be) {
-  const std::vector<double> off = off_middle(ways);
-  const auto within = [&](double most) {
-    return std::ranges::count_if(off, [=](double one) { return one < most; });
-  };
-  Surest best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < off.size(); ++i) {
-    if (!may_be[i] || off[i] >= least) continue;
-    least = off[i];
-    best.pair = i;
-  }
-  best.is_sure = least < kSureWay && within(kAgree) >= 3 && 2 * within(kAgree) > std::ssize(off);
-  return best;
-}
-
-Surest surest(const Chart& chart, const Circuit& known, const std::vector<SameLandmark>& same) {
-  std::vector<double> ways;
-  std::vector<bool> is_node;
-  for (const SameLandmark& pair : same) {
-    const Node& first = chart.node(known.lap[pair.first]);
-    const double way = chart.wall()[pair.again].way_m - first.way_m;
-    // Behind the end of a lap the first sight is one of its beginning.
-    ways.push_back(ways.empty() ? way : ways.front() + std::remainder(way - ways.front(), known.length_m));
-    is_node.push_back(first.kind != Kind::corner && !first.is_hidden);
-  }
-  return surest_of(ways, is_node);
-}
-
-/// Of a wall that leads back.
 Surest surest(const Chart& chart, const std::vector<SameLandmark>& same) {
   const std::span<const Node> wall = chart.wall();
   std::vector<double> ways;
   for (const SameLandmark& pair : same) {
     if (pair.first < same.front().again) ways.push_back(wall[pair.again].way_m - wall[pair.first].way_m);
   }
-  return surest_of(ways, std::vector<bool>(ways.size(), true));
+  const std::vector<double> off = off_middle(ways);
+  const auto within = [&](double most) {
+    return std::ranges::count_if(off, [=](double one) { return one < most; });
+  };
+  const bool is_sure = within(kAgree) >= 3 && 2 * within(kAgree) > std::ssize(off);
+  if (chart.circuits.empty()) return {0, is_sure};
+  // The last one: the first landmarks of a wall are seen at a slant, where a crossing ends.
+  std::optional<std::size_t> last;
+  for (std::size_t i = off.size(); i-- > 0;) {
+    if (off[i] >= kSureWay) continue;
+    if (!last) last = i;
+    if (wall[same[i].first].kind == Kind::discontinuity) return {i, is_sure};
+  }
+  return last ? Surest{*last, is_sure} : Surest{};
 }
 
 }  // namespace
@@ -235,19 +217,6 @@ Correction join_circuit(Chart& chart, std::size_t circuit, const std::vector<Sam
   for (std::size_t i = late; i < same.size(); ++i) {
     correction.to += chart.node(known.lap[same[i].first]).at / static_cast<double>(same.size() - late);
     correction.from += wall[same[i].again].at / static_cast<double>(same.size() - late);
-  }
-  const Surest sure = surest(chart, known, same);
-  const SameLandmark& joint = same[sure.pair];
-  const Node& met = wall[joint.again];
-  const double along = met.way_m - wall.front().way_m;
-  // Else it is not said where the crossing leads.
-  const bool is_sure = sure.is_sure && along < 0.5 * known.length_m && correction.turns % kWholeTurn == 0 &&
-                       (correction.to - correction.from).norm() < kFarOff;
-  for (Edge& edge : chart.edges) {
-    if (!edge.is_crossing || edge.to != wall.front().id || !is_sure) continue;
-    edge.to = known.lap[joint.first];
-    edge.length_m += along;
-    edge.quarter_turns += met.quarter - wall.front().quarter;
   }
   for (const SameLandmark& pair : same) ++chart.node(known.lap[pair.first]).visits;
   std::vector<std::uint32_t> ids;

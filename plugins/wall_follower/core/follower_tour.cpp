@@ -224,7 +224,8 @@ void Follower::check_tour() {
   }
   if (!circuit_) {
     const std::span<const Node> wall = chart_.wall();
-    if (!wall.empty() && std::abs(wall.back().quarter - wall.front().quarter) >= kMostTurns)
+    if (!chart_.circuits.empty() && !wall.empty() &&
+        std::abs(wall.back().quarter - wall.front().quarter) >= kMostTurns)
       finish("the wall has turned round three times, and does not read like an earlier part of it");
     return;
   }
