@@ -294,6 +294,19 @@ TEST(Follower, DoesNotEnterRoomsOnItsWayAcross) {
   EXPECT_EQ(count(drive.follower.chart(), Kind::room), 3U);
 }
 
+TEST(Follower, LeavesARoomIntoWhichTheWallLeads) {
+  const Scene scene = trap();
+  Drive drive(scene.plan, scene.start);
+  bool was_in_room = false;
+  drive.run(2400.0, [&] { was_in_room |= drive.world.truth().at.y() < -1.2; });
+  EXPECT_TRUE(was_in_room);
+  expect_explored(drive, 2);
+  // The wall round the hallway leads through the room, once.
+  const Circuit& around = drive.follower.chart().circuits.front();
+  EXPECT_GT(around.length_m, 38.0);
+  EXPECT_LT(around.length_m, 50.0);
+}
+
 TEST(Follower, ExploresWithFaults) {
   int whole = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {

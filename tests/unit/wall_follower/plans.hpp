@@ -66,6 +66,29 @@ inline Scene doors() {
   return {plan, {{1.0, 0.6}, 0.0}};
 }
 
+/// A hallway round a block, with a room whose doorway is entered from the hallway, since the wall behind it stands back by 0.6 m, and passed from within.
+inline Scene trap() {
+  return {Plan()
+              .ring({{0, 0},
+                     {5, 0},
+                     {5, -0.7},
+                     {3, -0.7},
+                     {3, -3.5},
+                     {8, -3.5},
+                     {8, -0.7},
+                     {6.1, -0.7},
+                     {6.1, -0.6},
+                     {11, -0.6},
+                     {11, 8},
+                     {4, 8},
+                     {4, 7.8},
+                     {2.5, 7.8},
+                     {2.5, 8},
+                     {0, 8}})
+              .box(2, 1.8, 9.2, 6.2),
+          {{1.0, 0.6}, 0.0}};
+}
+
 /// A room whose walls stagger by up to 0.3 m.
 inline Scene staggered() {
   return {Plan().ring({{0, 0},    {2, 0}, {2, 0.3}, {3.5, 0.3}, {3.5, 0},   {5, 0},   {5, -0.3},
