@@ -61,7 +61,8 @@ study::MappingRequest request_of(const FirstRobotOptions& options, const fs::pat
                                 .first_seed = options.first_seed,
                                 .maps = maps_folder(options.maps),
                                 .out = folder,
-                                .arguments = {"--plugin", options.plugin}};
+                                .arguments = {"--plugin", options.plugin},
+                                .by_cost = options.plugin == "wall_follower"};
   if (options.steps) {
     request.arguments.emplace_back("--steps");
     request.arguments.push_back(fmt::to_string(*options.steps));

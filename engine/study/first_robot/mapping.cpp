@@ -116,6 +116,17 @@ batch::Plan plan_mapping(const MappingRequest& request) {
     with_faults.push_back(cell_of({cell.map, cell.office, true, seed, files[2]}, request.arguments));
   }
   plan.cells.insert(plan.cells.end(), with_faults.begin(), with_faults.end());
+  if (!request.by_cost) return plan;
+  std::vector<std::string> arguments = request.arguments;
+  arguments.insert(arguments.end(), {"--set", "wall_follower.exploration=2"});
+  for (const char* map : kNamedMaps) {
+    for (const bool faults : {false, true}) {
+      const fs::path scenario = request.maps / (std::string(map) + (faults ? "_faults.toml" : ".toml"));
+      for (std::uint64_t i = 0; i < request.seeds; ++i)
+        plan.cells.push_back(
+            cell_of({std::string(map) + kByCost, "", faults, request.first_seed + i, scenario}, arguments));
+    }
+  }
   return plan;
 }
 

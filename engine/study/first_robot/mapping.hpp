@@ -25,6 +25,8 @@ struct MappingRequest {
   std::filesystem::path maps{};          ///< with the named maps' scenarios and robots/first.map
   std::filesystem::path out{};           ///< generated offices are written into its folder `offices`
   std::vector<std::string> arguments{};  ///< of `hallway run` in every run
+  bool by_cost =
+      false;  ///< also runs on the named maps in which the plugin wall_follower explores by cost, as maps of their own
 };
 
 /// Name, figures and size, for write_outcome(). It has no plan of runs.
@@ -36,12 +38,15 @@ std::span<const char* const> named_maps();
 /// What generated offices are named as a group.
 inline constexpr const char* kGeneratedOffices = "offices";
 
-/// Writes the offices and makes the plan: the named maps first, in each the runs without faults before those with. Throws Error{kIo}.
+/// What is behind the name of a map in which the robot explores by cost.
+inline constexpr const char* kByCost = "_by_cost";
+
+/// Writes the offices and makes the plan: the named maps first, in each the runs without faults before those with; those by cost last. Throws Error{kIo}.
 batch::Plan plan_mapping(const MappingRequest& request);
 
 /// What a run comes to.
 struct MappingRun {
-  std::string map{};                      ///< a named map, or kGeneratedOffices
+  std::string map{};  ///< a named map, with kByCost behind it or not, or kGeneratedOffices
   std::optional<std::uint64_t> office{};  ///< seed of a generated one
   bool faults = false;
   std::uint64_t seed = 0;

@@ -131,6 +131,28 @@ TEST(FirstRobotPlan, HasEveryRunOnceAndWritesTheOffices) {
   }
 }
 
+TEST(FirstRobotPlan, ComparesBothRulesOfExploration) {
+  const TempFolder folder;
+  const MappingRequest request{.seeds = 2,
+                               .offices = 0,
+                               .maps = test::source_folder() / "maps",
+                               .out = folder.path(),
+                               .arguments = {"--plugin", "wall_follower"},
+                               .by_cost = true};
+  const batch::Plan plan = plan_mapping(request);
+  const std::size_t half = 2 * 2 * named_maps().size();
+  ASSERT_EQ(plan.cells.size(), 2 * half);
+  for (std::size_t i = 0; i < half; ++i) {
+    const batch::Cell &right = plan.cells[i], &cost = plan.cells[half + i];
+    EXPECT_EQ(right.labels[0].value + kByCost, cost.labels[0].value);
+    EXPECT_EQ(right.labels[3].value, cost.labels[3].value);  // the same seeds
+    std::vector<std::string> arguments = right.arguments;
+    arguments.insert(arguments.end(), {"--set", "wall_follower.exploration=2"});
+    EXPECT_EQ(arguments, cost.arguments);
+    EXPECT_NE(right.name, cost.name);
+  }
+}
+
 TEST(FirstRobotTables, CountLoopsOfEachGroup) {
   const auto run = [](const char* map, bool faults, const char* loop, std::optional<double> distance_m) {
     return MappingRun{.map = map,
