@@ -184,7 +184,7 @@ void add_first_robot_command(Command& group) {
       .value("N")
       .range(0u, 10'000u)
       .show_default();
-  add_shared(command, Shared::kSteps, &options.steps).fallback("the scenarios', 16000");
+  add_shared(command, Shared::kSteps, &options.steps).fallback("the scenarios', 32000");
   command.flag("--quick", &options.quick, "A small size for trying out");
   add_shared(command, Shared::kJobs, &options.jobs).show_default();
   add_shared(command, Shared::kOutFolder, &options.out)
