@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "cli/batch_results.hpp"
 #include "cli/small_world.hpp"
 #include "support/data.hpp"
+#include "support/long_mode.hpp"
 
 namespace hallway::test {
 namespace {
@@ -96,6 +98,49 @@ TEST(FirstRobotStudy, WritesTablesChartsAndFiguresTheSameEveryTime) {
   EXPECT_NE(again.out.find("two_loops"), std::string::npos) << again.out;
   expect_same_files(a, b);
   expect_same_files(a / "offices", b / "offices");
+}
+
+// Seeds on which nothing was tuned.
+TEST(FirstRobotMaps, AreOftenRightAndHardlyEverWrong) {
+  if (!long_mode()) GTEST_SKIP() << "only with HALLWAY_TEST_LONG=1";
+  const TempFolder folder;
+  const fs::path out = folder.path() / "out";
+  // With parameters it is not compared with exploration by cost.
+  const Ended ended = study("first-robot", {"--plugin", "wall_follower:exploration=1", "--first-seed", "9001",
+                                            "--jobs", "2", "--quiet", "--out", out});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  struct Count {
+    int runs = 0, right = 0, wrong = 0;
+  };
+  std::map<std::string, Count> counts;
+  for (const Json& run : read_json(out / "study.json").at("tables").at("runs")) {
+    const std::string map = run.at("map").get<std::string>(), faults = run.at("faults").get<std::string>();
+    Count& count = counts[map + (faults == "yes" ? " with faults" : "")];
+    ++count.runs;
+    count.right += run.at("loop") == "rightly closed" ? 1 : 0;
+    count.wrong += run.at("loop") == "wrongly closed" ? 1 : 0;
+  }
+  struct Demand {
+    std::string map;
+    int runs, right, wrong;
+  };
+  const Demand demands[] = {{"cubicles", 20, 19, 0},         {"cubicles with faults", 20, 17, 0},
+                            {"two_loops", 20, 17, 0},        {"two_loops with faults", 20, 17, 0},
+                            {"cubicles_changed", 20, 17, 0}, {"cubicles_changed with faults", 20, 17, 0},
+                            {"offices", 100, 85, 1},         {"offices with faults", 100, 85, 1}};
+  EXPECT_EQ(counts.size(), std::size(demands));
+  for (const Demand& demand : demands) {
+    const Count& count = counts[demand.map];
+    EXPECT_EQ(count.runs, demand.runs) << demand.map;
+    EXPECT_GE(count.right, demand.right) << demand.map;
+    EXPECT_LE(count.wrong, demand.wrong) << demand.map;
+  }
+  for (const auto& cell : fs::directory_iterator(out / "cells")) {
+    const std::string name = cell.path().filename().string();
+    if (!cell.is_directory() || !(name.starts_with("cubicles-") || name.starts_with("two_loops-"))) continue;
+    const Json openings = read_json(cell.path() / "metrics.json").at("topology").at("openings");
+    EXPECT_EQ(openings.at("found"), openings.at("demanded")) << name;
+  }
 }
 
 TEST(FirstRobotRun, IsNotLostWithoutPoses) {

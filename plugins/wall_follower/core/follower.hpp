@@ -113,6 +113,7 @@ class Follower {
   void close();
   void join();
   bool is_side_room() const;
+  bool has_turned_round() const;
   void leave_room();
   void take_back_lap(const Node& first_sight, const Node& second_sight, std::size_t kept);
   void open_door();
@@ -120,6 +121,9 @@ class Follower {
   void localise(const Node& node);
   void plan();
   void finish(const std::string& note);
+  void give_up_wall();
+  /// What the note says of walls that were given up.
+  std::string left_open() const;
   bool leaves_here() const;
   /// Whether it is between two walls.
   bool is_crossing() const;
@@ -172,6 +176,7 @@ class Follower {
   double station_m_ = 0.0;              // on it, where the last landmark was
   double station_way_ = 0.0;            // way then
   bool is_leaving_room_ = false;        // through the next opening
+  int given_up_ = 0;                    // walls whose landmarks did not repeat themselves
   double landing_error_m_ = 0.0;        // of the station, until a landmark is known
   double matched_way_ = 0.0;            // way where a landmark was a known one last
   double exit_way_ = 0.0;               // way at which the exit is expected

@@ -21,6 +21,16 @@ bool Follower::is_side_room() const {
          again.way_m - first.way_m < kLongestRoom;
 }
 
+/// Whether the wall that is followed has led into a room and more than once round it, whatever its landmarks say.
+bool Follower::has_turned_round() const {
+  const std::span<const Node> wall = chart_.wall();
+  for (std::size_t i = wall.size(); i-- > kLeastLead;) {
+    if (wall.back().way_m - wall[i].way_m > kLongestRoom) return false;
+    if (wall.back().quarter - wall[i].quarter > kWholeTurn) return true;
+  }
+  return false;
+}
+
 /// The lap of a room is taken back, and at the next opening the robot turns right, out of it: so the wall goes on.
 void Follower::leave_room() {
   const std::span<const Node> wall = chart_.wall();

@@ -142,7 +142,7 @@ Command Follower::sweep(const Senses& senses) {
   const bool is_door = is_leaving_room_ && opening_ == Opening::room;
   if (is_door) opening_ = Opening::hallway;
   // What the robot touched on the way is too near for the sonar.
-  if (odometer_.way_m() < keep_until_) opening_ = Opening::covered;
+  if (odometer_.way_m() < keep_until_ && !is_leaving_room_) opening_ = Opening::covered;
   swept_ =
       WallPoint{here.out(Vec2(0.0, -wall)), odometer_.way_m(), t_ns_, odometer_.charted(), Vec2(0.0, -wall)};
   is_opening_charted_ = false;

@@ -21,6 +21,7 @@ constexpr double kLeastCrossing = 0.8;  // way before a wall on the right is fol
 constexpr double kLeastDoorway = 0.5;   // way before a doorway is one of the other wall [m]
 constexpr double kIsWall = 0.35;        // a wall on the right is longer than a door frame [m]
 constexpr int kMostTurns = 12;          // of 90 degrees: three times round without a loop
+constexpr int kMostGivenUp = 4;         // walls
 
 double longest_gap(const Chart& chart, const Circuit& circuit) {
   double gap = 0.0, last = circuit.begin_m + circuit.length_m;
@@ -48,7 +49,13 @@ void Follower::judge(const Node& node) {
   chart_.note = verdict_.loop == Loop::uncertain
                     ? "the wall reads like an earlier part of it, and it may be another one"
                     : "";
-  if (verdict_.loop != Loop::closed) return;
+  if (verdict_.loop != Loop::closed) {
+    if (!is_leaving_room_ && has_turned_round()) {
+      is_leaving_room_ = true;
+      news_.push_back("the wall has turned round on a short way, and the robot leaves");
+    }
+    return;
+  }
   if (is_side_room()) {
     leave_room();
     return;
@@ -130,7 +137,7 @@ void Follower::plan() {
   const double station = station_m_ + odometer_.way_m() - station_way_;
   route_ = explorer_.next(*circuit_, station, static_cast<Exploration>(options_.exploration));
   if (!route_) {
-    finish("");
+    finish(left_open());
     return;
   }
   const Exit& exit = explorer_.exits()[route_->exit];
@@ -162,7 +169,7 @@ void Follower::check_tour() {
     const std::span<const Node> wall = chart_.wall();
     if (!chart_.circuits.empty() && !wall.empty() &&
         std::abs(wall.back().quarter - wall.front().quarter) >= kMostTurns)
-      finish("the wall has turned round three times, and does not read like an earlier part of it");
+      give_up_wall();
     return;
   }
   if (is_crossing()) return;
@@ -177,6 +184,26 @@ void Follower::check_tour() {
     explorer_.miss_exit(route_->exit);
     plan();
   }
+}
+
+/// A wall that turns round and round, and whose landmarks do not repeat themselves, is one of a room in which the robot was lost. It leaves through the next opening.
+void Follower::give_up_wall() {
+  if (++given_up_ > kMostGivenUp) {
+    finish(left_open());
+    return;
+  }
+  begin_wall();
+  is_leaving_room_ = true;
+  news_.push_back(
+      "the wall has turned round three times, and does not read like an earlier part of it: the robot "
+      "leaves");
+}
+
+std::string Follower::left_open() const {
+  return given_up_ == 0
+             ? ""
+             : "walls that turned round three times and did not read like an earlier part of themselves: " +
+                   std::to_string(given_up_);
 }
 
 bool Follower::is_crossing() const {

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace hallway::wall_follower {
 namespace {
 
 constexpr std::size_t kMostSkipped = 3;  // landmarks of one lap between two pairs
 constexpr double kLeastScore = 0.2;      // of a pair, or its alignment ends
-constexpr int kLeastPairs = 5;
+constexpr std::size_t kLeastPairs = 5;
 constexpr double kStrong = 10.0;    // a score from which on a known wall may be far from where it is expected
 constexpr double kFarMargin = 4.0;  // that the next best place is below it then
 constexpr double kCrossingError = 2.0;  // [m]
@@ -133,17 +134,6 @@ LoopFinder::Cell LoopFinder::cell_of(std::size_t first, std::size_t again) const
   return cell;
 }
 
-bool LoopFinder::turns_between(std::size_t first, std::size_t again) const {
-  const int quarter = seen(again).quarter;
-  for (;;) {
-    const Cell& cell = rows_[again][first];
-    if (seen(again).quarter != quarter) return true;
-    if (cell.again_back == 0) return false;
-    first -= static_cast<std::size_t>(cell.first_back);
-    again -= static_cast<std::size_t>(cell.again_back);
-  }
-}
-
 LoopVerdict LoopFinder::add(const Node& node) {
   const std::size_t again = rows_.size(), firsts = places_.size();
   places_.push_back({node, std::nullopt, again});
@@ -161,21 +151,54 @@ LoopVerdict LoopFinder::add(const Node& node) {
     best = first;
   }
   if (!best) return verdict;
+  Alignment alignment = trusted(*best, again);
+  verdict.score = alignment.score;
+  verdict.other = alignment.other;
+  if (verdict.score < options_.match_score || alignment.same.size() < kLeastPairs) return verdict;
   const Place& place = places_[*best];
-  for (std::size_t first = 0; first < firsts; ++first) {
-    const bool is_it = places_[first].circuit == place.circuit && places_[first].index == place.index;
-    if (!is_it && leads_back(places_[first], node, true))
-      verdict.other = std::max(verdict.other, static_cast<double>(rows_[again][first].score));
-  }
-  if (verdict.score < options_.match_score || rows_[again][*best].length < kLeastPairs) return verdict;
   const bool is_far = !leads_back(place, node, false);
   const bool is_alone = verdict.score >= verdict.other + (is_far ? kFarMargin : options_.match_margin);
-  const bool is_certain = is_far || turns_between(*best, again);
+  const bool is_certain = is_far || alignment.turns;
   verdict.loop = is_alone && is_certain ? Loop::closed : Loop::uncertain;
   if (verdict.loop != Loop::closed) return verdict;
   verdict.circuit = place.circuit;
-  verdict.same = pairs_of(*best, again);
+  verdict.same = std::move(alignment.same);
   return verdict;
+}
+
+double LoopFinder::best_beside(std::size_t first, std::size_t again, bool is_strong) const {
+  const Place& place = places_[first];
+  const std::vector<Cell>& row = rows_[again];
+  double best = 0.0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    // An earlier lap of a wall that is a known one says nothing against that.
+    if (is_strong && place.circuit && !places_[i].circuit) continue;
+    const bool is_it = places_[i].circuit == place.circuit && places_[i].index == place.index;
+    if (!is_it && leads_back(places_[i], seen(again), true))
+      best = std::max(best, static_cast<double>(row[i].score));
+  }
+  return best;
+}
+
+LoopFinder::Alignment LoopFinder::trusted(std::size_t first, std::size_t again) const {
+  Alignment alignment;
+  const double all = static_cast<double>(rows_[again][first].score);
+  const int quarter = seen(again).quarter;
+  for (;;) {
+    const Cell& cell = rows_[again][first];
+    const double score = static_cast<double>(cell.score), other = best_beside(first, again, all >= kStrong);
+    if (other > score + options_.match_margin && !alignment.same.empty()) break;
+    alignment.same.push_back({places_[first].index, again});
+    alignment.other = std::max(alignment.other, other);
+    alignment.score =
+        all - score + worth(places_[first].node) - *difference(places_[first].node, seen(again));
+    if (seen(again).quarter != quarter) alignment.turns = true;
+    if (cell.again_back == 0) break;
+    first -= static_cast<std::size_t>(cell.first_back);
+    again -= static_cast<std::size_t>(cell.again_back);
+  }
+  std::reverse(alignment.same.begin(), alignment.same.end());
+  return alignment;
 }
 
 std::vector<SameLandmark> LoopFinder::pairs_of(std::size_t first, std::size_t again) const {
@@ -198,7 +221,8 @@ std::vector<SameLandmark> LoopFinder::best_with(std::size_t circuit) const {
     for (std::size_t first = 0; first < known_; ++first) {
       const double score = static_cast<double>(rows_[again][first].score);
       if (places_[first].circuit != circuit || score < least_score) continue;
-      if (rows_[again][first].length < kLeastPairs || !leads_back(places_[first], seen(again), true))
+      if (rows_[again][first].length < static_cast<int>(kLeastPairs) ||
+          !leads_back(places_[first], seen(again), true))
         continue;
       least_score = score;
       best = SameLandmark{first, again};

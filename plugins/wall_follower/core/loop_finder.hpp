@@ -23,7 +23,7 @@ struct LoopVerdict {
       circuit;  ///< of a closed loop: the known wall that it is, as an index in Chart::circuits; empty: one of its own
   std::vector<SameLandmark> same;  ///< of a closed loop, in the order of the way
   double score = 0.0;              ///< of the best place
-  double other = 0.0;              ///< of the next best one
+  double other = 0.0;              ///< the best one of another place, at any landmark of it
 };
 
 /// Finds where the string of landmarks repeats itself: a local alignment (Smith and Waterman, 1981) of the landmarks seen last with earlier ones, and with those of walls that are known. A pair of landmarks
@@ -48,6 +48,12 @@ class LoopFinder {
     std::int8_t first_back = 0, again_back = 0;  ///< to the pair before; 0: there is none
     std::int16_t length = 0;                     ///< pairs
   };
+  struct Alignment {
+    std::vector<SameLandmark> same;  ///< in the order of the way
+    double score = 0.0, other = 0.0;
+    bool turns =
+        false;  ///< whether the wall turns along it: along a straight wall places may be alike that are none
+  };
   /// A landmark of a known wall, or of the one that is followed.
   struct Place {
     Node node;
@@ -58,10 +64,12 @@ class LoopFinder {
   const Node& seen(std::size_t again) const { return places_[known_ + again].node; }
   Cell cell_of(std::size_t first, std::size_t again) const;
   bool may_be_one(const Place& first, const Node& again) const;
-  /// Whether the wall turns along the landmarks of an alignment: along a straight wall places may be alike that are none.
   /// The pairs of an alignment, by its last one.
   std::vector<SameLandmark> pairs_of(std::size_t first, std::size_t again) const;
-  bool turns_between(std::size_t first, std::size_t again) const;
+  /// The best score that a landmark has with another place than one.
+  double best_beside(std::size_t first, std::size_t again, bool is_strong) const;
+  /// The last part of an alignment, in which no landmark fits much better elsewhere. Rooms that are alike and evenly spaced fit when shifted by one: where the better alignment has broken off, the shifted one may go on.
+  Alignment trusted(std::size_t first, std::size_t again) const;
   static bool is_turned_alike(const Place& a, const Node& again_a, const Place& b, const Node& again_b);
   /// Whether the reckoned way does not speak against a pair. It counts less where the score is strong, and nothing then where a turn was miscounted on the way to a known wall.
   bool leads_back(const Place& first, const Node& again, bool is_strong) const;

@@ -25,8 +25,8 @@ struct Options {
   double room_depth_m = 4.5;       ///< an opening whose free space reaches beyond this is a hallway
   double sweep_window_deg = 22.5;  ///< pings within this of the direction into the opening count
   double bump_back_m = 0.1;        ///< way back after a bump
-  double match_score = 4.5;        ///< of the landmarks that close a loop
-  double match_margin = 1.5;       ///< that the next best place must be below it
+  double match_score = 6.5;        ///< of the landmarks that close a loop
+  double match_margin = 2.0;       ///< that the next best place must be below it
   double least_lap_m = 3.0;        ///< a loop is not shorter
   double drift_m = 0.4;            ///< how far the way of a lap may be from leading back
   double drift_per_m = 0.05;       ///< likewise, for each metre of it

@@ -307,6 +307,26 @@ TEST(Follower, LeavesARoomIntoWhichTheWallLeads) {
   EXPECT_LT(around.length_m, 50.0);
 }
 
+TEST(Follower, LeavesARoomWhoseLandmarksAreNeverKnownAgain) {
+  const Scene scene = trap();
+  Options options;
+  options.match_score = 100.0;
+  Drive drive(scene.plan, scene.start, {}, 1, options);
+  // Across the hallway's far end and in the room by turns.
+  int ways_round = 0;
+  bool was_in_room = false;
+  drive.run(1200.0, [&] {
+    const double y = drive.world.truth().at.y();
+    was_in_room |= y < -1.2;
+    if (was_in_room && y > 6.5) {
+      ++ways_round;
+      was_in_room = false;
+    }
+  });
+  EXPECT_GE(ways_round, 3);
+  EXPECT_EQ(drive.follower.chart().loop, Loop::open);
+}
+
 TEST(Follower, ExploresWithFaults) {
   int whole = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {

@@ -178,6 +178,32 @@ TEST(LoopFinder, IsUncertainWhereItReadsAlikeTwice) {
   EXPECT_TRUE(is_closed);
 }
 
+TEST(LoopFinder, AShiftedAlignmentIsCutWhereABetterOneBreaksOff) {
+  // Four rooms that are alike, and behind them a wall without any. In the second lap bumps make the way behind the rooms longer by one room: the first three rooms fit the last three.
+  constexpr std::size_t kBehindRooms = 12;
+  constexpr double kRoom = 2.25;
+  std::vector<Mark> marks;
+  for (int lap = 0; lap < 2; ++lap) {
+    for (int room = 0; room < 4; ++room) {
+      marks.push_back({Kind::discontinuity, 1, kInfinite, kRoom - 1.05, lap == 1 && room == 0 ? 1 : 0});
+      marks.push_back({Kind::room, 0, kNan, 0.5});
+      marks.push_back({Kind::discontinuity, -1, kInfinite, 0.55});
+    }
+    marks.push_back({Kind::corner, 0, kNan, lap == 0 ? 3.0 : 3.0 + kRoom});
+    marks.push_back({Kind::discontinuity, 1, 0.3, 4.0, 1});
+    marks.push_back({Kind::corner, 0, kNan, 3.0});
+    marks.push_back({Kind::discontinuity, -1, 0.25, 5.0, 1});
+    marks.push_back({Kind::discontinuity, 1, 0.4, 3.0});
+    marks.push_back({Kind::corner, 0, kNan, 4.0});
+    marks.push_back({Kind::discontinuity, -1, 0.5, 3.5, 1});
+    marks.push_back({Kind::corner, 0, kNan, 3.5});
+  }
+  LoopVerdict verdict;
+  const std::size_t lap = marks.size() / 2;
+  ASSERT_GT(closed_at(marks, &verdict), static_cast<int>(lap + kBehindRooms));
+  for (const SameLandmark& pair : verdict.same) EXPECT_EQ(pair.again - pair.first, lap) << pair.first;
+}
+
 TEST(LoopFinder, ClosingKeepsOneLap) {
   const std::vector<Mark> marks = laps(2);
   Walk walk;
