@@ -87,8 +87,9 @@ bool LoopFinder::leads_back(const Place& first, const Node& again, bool is_stron
 
 bool LoopFinder::may_be_one(const Place& first, const Node& again) const {
   if (first.circuit) return true;
+  // A room whose lap was not taken back adds a whole turn.
   const int turns = again.quarter - first.node.quarter;
-  return std::abs(turns) == kWholeTurn && again.way_m - first.node.way_m >= options_.least_lap_m;
+  return turns != 0 && turns % kWholeTurn == 0 && again.way_m - first.node.way_m >= options_.least_lap_m;
 }
 
 /// Whether the landmarks of two pairs are turned by the same angle: of a known wall, less whole turns.
