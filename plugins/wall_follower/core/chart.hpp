@@ -67,7 +67,7 @@ struct Chart {
   std::vector<Edge> edges;
   std::vector<Circuit> circuits;  ///< walls that are closed
   std::vector<std::vector<std::uint32_t>>
-      leads;  ///< ids of landmarks that were met before a circuit and are not of it
+      leads;  ///< ids of landmarks that were met before a circuit, closed or known, and are not of it
   std::size_t wall_begin =
       0;  ///< index of the first landmark of the wall that is followed, if that is not known yet
   Loop loop = Loop::open;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kLatePairs = 3;   // that say where the robot is now
 constexpr std::size_t kMostBehind = 4;  // landmarks behind such an alignment that are of the lap too
+constexpr std::size_t kLeastKept = 6;   // landmarks of another wall, from which the robot came to a known one
 constexpr double kSureWay = 0.15,
                  kAgree = 0.3;  // of ways between two sights of landmarks, from the middle one [m]
 constexpr double kFarOff =
@@ -77,6 +78,31 @@ std::vector<std::uint32_t> without_circuit(Chart& chart, const std::vector<std::
   left.erase(begin, end);
   chart.remove(out);
   return left;
+}
+
+/// Of a wall that did not lead back, what is not of an earlier such wall is kept. Crossings to what is lead to its first sight.
+void keep_unseen(Chart& chart, const std::vector<std::uint32_t>& string) {
+  std::vector<std::uint32_t> unseen, seen;
+  for (const std::uint32_t id : string) {
+    std::optional<std::uint32_t> first;
+    double within = kSeenAgain;
+    for (const std::vector<std::uint32_t>& lead : chart.leads) {
+      for (const std::uint32_t known : lead) {
+        const double off = (chart.node(known).at - chart.node(id).at).norm();
+        if (off > within || !may_be_one(chart.node(known), chart.node(id))) continue;
+        within = off;
+        first = known;
+      }
+    }
+    (first ? seen : unseen).push_back(id);
+    if (!first) continue;
+    ++chart.node(*first).visits;
+    for (Edge& edge : chart.edges) {
+      if (edge.is_crossing && edge.to == id) edge.to = *first;
+    }
+  }
+  chart.remove(seen);
+  if (!unseen.empty()) chart.leads.push_back(std::move(unseen));
 }
 
 /// Of pairs with the ways between both sights: how far each is from the middle one. Where a wall's end is round, landmarks are seen in several places.
@@ -219,8 +245,10 @@ Correction join_circuit(Chart& chart, std::size_t circuit, const std::vector<Sam
     correction.from += wall[same[i].again].at / static_cast<double>(same.size() - late);
   }
   for (const SameLandmark& pair : same) ++chart.node(known.lap[pair.first]).visits;
-  std::vector<std::uint32_t> ids;
-  for (const Node& node : wall) ids.push_back(node.id);
+  const std::size_t begin = same.front().again < kLeastKept ? 0 : same.front().again;
+  std::vector<std::uint32_t> kept, ids;
+  for (std::size_t i = 0; i < wall.size(); ++i) (i < begin ? kept : ids).push_back(wall[i].id);
+  keep_unseen(chart, kept);
   chart.remove(ids);
   chart.wall_begin = chart.nodes.size();
   ++chart.changes;

@@ -30,7 +30,7 @@ std::vector<SameLandmark> from_surest(const Chart& chart, const std::vector<Same
 /// What the reckoned way of the lap does not lead back by is shared out over it. @return the correction of what is behind the lap [m]
 Vec2 close_loop(Chart& chart, const std::vector<SameLandmark>& same, const Options& options);
 
-/// The wall that is followed is a known one: its landmarks are left out, and the crossing to it: where exactly that meets the wall is not certain.
+/// The wall that is followed is a known one: its landmarks are left out, and the crossing to it: where exactly that meets the wall is not certain. Six landmarks or more before the known ones are of another wall, and stay.
 /// @return the correction of the reckoned way
 Correction join_circuit(Chart& chart, std::size_t circuit, const std::vector<SameLandmark>& same);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -263,6 +264,48 @@ TEST(LoopFinder, AKnownWallIsKnown) {
     for (const Edge& edge : walk->chart.edges)
       EXPECT_TRUE(walk->chart.has(edge.from) && walk->chart.has(edge.to));
   }
+}
+
+TEST(LoopFinder, WhatLeadsOntoAKnownWallIsKeptOnce) {
+  std::size_t next = 0;
+  std::optional<Walk> walk = closed_walk(0, next);
+  ASSERT_TRUE(walk);
+  Chart& chart = walk->chart;
+  const std::size_t known = chart.nodes.size();
+  // From steps of another wall, by a crossing, onto the known one. The second time they are seen 0.2 m beside.
+  const auto come = [&](std::size_t others, double beside) {
+    chart.wall_begin = chart.nodes.size();
+    std::vector<SameLandmark> same;
+    for (std::size_t i = 0; i < others; ++i) {
+      Node step;
+      step.kind = Kind::discontinuity;
+      step.direction = i % 3 == 0 ? 1 : -1;
+      step.at = Vec2(30.0 + 2.0 * static_cast<double>(i), beside);
+      chart.add(step, 1.0);
+      if (i == 0) chart.edges.push_back({chart.circuits[0].lap[2], chart.nodes.back().id, 1.0, 1.0, 0, true});
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      chart.add(Node(chart.node(chart.circuits[0].lap[i])), 1.0);
+      same.push_back({i, others + i});
+    }
+    join_circuit(chart, 0, same);
+    for (const Edge& edge : chart.edges) EXPECT_TRUE(chart.has(edge.from) && chart.has(edge.to));
+  };
+  come(3, 0.0);  // where it came onto the wall, at a slant
+  EXPECT_EQ(chart.nodes.size(), known);
+  EXPECT_TRUE(chart.leads.empty());
+  come(8, 0.0);
+  EXPECT_EQ(chart.nodes.size(), known + 8);
+  ASSERT_EQ(chart.leads.size(), 1U);
+  const std::vector<std::uint32_t> first = chart.leads[0];
+  EXPECT_EQ(first.size(), 8U);
+  come(10, 0.2);  // goes on by two steps
+  EXPECT_EQ(chart.nodes.size(), known + 10);
+  ASSERT_EQ(chart.leads.size(), 2U);
+  EXPECT_EQ(chart.leads[1].size(), 2U);
+  EXPECT_EQ(std::ranges::count_if(
+                chart.edges, [&](const Edge& edge) { return edge.is_crossing && edge.to == first.front(); }),
+            2);
 }
 
 TEST(LoopFinder, AnotherWallIsNotAKnownOne) {
