@@ -56,7 +56,17 @@ done
 "$hallway" run "$here/../maps/senses.toml" --out "$work/senses" --quiet
 "$hallway" render "$work/senses" --iteration 400 --view top --area 3.4,-0.3,10.6,8.3 --size 760x860 \
   --hide all --show map,body,trail,truth,deskewed --out "$here/sonar.png"
-# The chart of the first robot in an office, with faults, over the plan (thesis 2.2.4, figure 25).
-"$hallway" run "$here/../maps/cubicles_faults.toml" --seed 105 --out "$work/cubicles" --quiet
+# The chart of the first robot in an office, with faults, over the plan (thesis 2.2.4, figure 25), and how it grows.
+"$hallway" run "$here/../maps/cubicles_faults.toml" --seed 106 --out "$work/cubicles" --quiet
 "$hallway" render "$work/cubicles" --view top --cut 1.2 --size 1120x720 --hide all --show map,truth,topology --out "$here/topology.png"
+for iteration in 900 2400 3300 4800 6600 8450; do
+  "$hallway" render "$work/cubicles" --view top --cut 1.2 --size 640x440 --iteration $iteration \
+    --hide all --show map,body,trail,topology,drawing --out "$here/first_robot_$iteration.png"
+done
+# Figures 26 to 28: the simulated office, the one with a doubled cubicle, and what is mapped of it with faults (2.2.5).
+"$hallway" run "$here/../maps/cubicles.toml" --out "$work/figure_26" --quiet
+"$hallway" render "$work/figure_26" --view top --cut 1.2 --size 760x520 --hide all --show map,truth,topology --out "$here/figure_26.png"
+"$hallway" render "$here/../maps/cubicles_changed.map" --view top --cut 1.2 --size 760x520 --hide all --out "$here/figure_27.png"
+"$hallway" run "$here/../maps/cubicles_changed_faults.toml" --out "$work/figure_28" --quiet
+"$hallway" render "$work/figure_28" --view top --cut 1.2 --size 760x520 --hide all --show map,truth,topology --out "$here/figure_28.png"
 ls -l "$here"/*.png
