@@ -106,7 +106,7 @@ TEST(FirstRobotMaps, AreOftenRightAndHardlyEverWrong) {
   const TempFolder folder;
   const fs::path out = folder.path() / "out";
   // With parameters it is not compared with exploration by cost.
-  const Ended ended = study("first-robot", {"--plugin", "wall_follower:exploration=1", "--first-seed", "9001",
+  const Ended ended = study("first-robot", {"--plugin", "wall_follower:exploration=1", "--first-seed", "9501",
                                             "--jobs", "2", "--quiet", "--out", out});
   ASSERT_EQ(ended.status, 0) << ended.err;
   struct Count {

@@ -80,29 +80,22 @@ std::vector<std::uint32_t> without_circuit(Chart& chart, const std::vector<std::
   return left;
 }
 
-/// Of a wall that did not lead back, what is not of an earlier such wall is kept. Crossings to what is lead to its first sight.
+/// The landmarks of a wall that did not lead back are kept; where most of them are of an earlier such wall, only the others. By its place alone no landmark says where a crossing has led: that is left out with its end.
 void keep_unseen(Chart& chart, const std::vector<std::uint32_t>& string) {
+  const auto is_seen = [&](std::uint32_t id) {
+    const Node& node = chart.node(id);
+    return std::ranges::any_of(chart.leads, [&](const std::vector<std::uint32_t>& lead) {
+      return std::ranges::any_of(lead, [&](std::uint32_t known) {
+        return may_be_one(chart.node(known), node) && (chart.node(known).at - node.at).norm() < kSeenAgain;
+      });
+    });
+  };
   std::vector<std::uint32_t> unseen, seen;
-  for (const std::uint32_t id : string) {
-    std::optional<std::uint32_t> first;
-    double within = kSeenAgain;
-    for (const std::vector<std::uint32_t>& lead : chart.leads) {
-      for (const std::uint32_t known : lead) {
-        const double off = (chart.node(known).at - chart.node(id).at).norm();
-        if (off > within || !may_be_one(chart.node(known), chart.node(id))) continue;
-        within = off;
-        first = known;
-      }
-    }
-    (first ? seen : unseen).push_back(id);
-    if (!first) continue;
-    ++chart.node(*first).visits;
-    for (Edge& edge : chart.edges) {
-      if (edge.is_crossing && edge.to == id) edge.to = *first;
-    }
-  }
-  chart.remove(seen);
-  if (!unseen.empty()) chart.leads.push_back(std::move(unseen));
+  for (const std::uint32_t id : string) (is_seen(id) ? seen : unseen).push_back(id);
+  const bool is_known = 2 * seen.size() > string.size();
+  if (is_known) chart.remove(seen);
+  std::vector<std::uint32_t> kept = is_known ? unseen : string;
+  if (!kept.empty()) chart.leads.push_back(std::move(kept));
 }
 
 /// Of pairs with the ways between both sights: how far each is from the middle one. Where a wall's end is round, landmarks are seen in several places.

@@ -303,9 +303,10 @@ TEST(LoopFinder, WhatLeadsOntoAKnownWallIsKeptOnce) {
   EXPECT_EQ(chart.nodes.size(), known + 10);
   ASSERT_EQ(chart.leads.size(), 2U);
   EXPECT_EQ(chart.leads[1].size(), 2U);
-  EXPECT_EQ(std::ranges::count_if(
-                chart.edges, [&](const Edge& edge) { return edge.is_crossing && edge.to == first.front(); }),
-            2);
+  // Where the second crossing has led is not certain.
+  EXPECT_EQ(std::ranges::count_if(chart.edges, [](const Edge& edge) { return edge.is_crossing; }), 1);
+  EXPECT_TRUE(std::ranges::any_of(
+      chart.edges, [&](const Edge& edge) { return edge.is_crossing && edge.to == first.front(); }));
 }
 
 TEST(LoopFinder, AnotherWallIsNotAKnownOne) {
