@@ -113,7 +113,8 @@ TEST(FirstRobotMaps, AreOftenRightAndHardlyEverWrong) {
     int runs = 0, right = 0, wrong = 0;
   };
   std::map<std::string, Count> counts;
-  for (const Json& run : read_json(out / "study.json").at("tables").at("runs")) {
+  const Json study = read_json(out / "study.json");
+  for (const Json& run : study.at("tables").at("runs")) {
     const std::string map = run.at("map").get<std::string>(), faults = run.at("faults").get<std::string>();
     Count& count = counts[map + (faults == "yes" ? " with faults" : "")];
     ++count.runs;
@@ -180,7 +181,8 @@ TEST(FirstRobotStudy, HasTheStatusOfItsRunsWhereAllFail) {
     EXPECT_NE(ended.err.find(one.runs), std::string::npos) << ended.err;
     EXPECT_NE(ended.err.find(one.part), std::string::npos) << ended.err;
     EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
-    for (const Json& run : read_json(out / "study.json").at("tables").at("runs"))
+    const Json study = read_json(out / "study.json");
+    for (const Json& run : study.at("tables").at("runs"))
       EXPECT_EQ(run.at("loop"), "failed");
   }
 }
