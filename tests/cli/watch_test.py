@@ -435,10 +435,11 @@ class WatchChart(WatchCase):
     LAST = "frame 499 of 499"
 
     def to_the_end(self, watched):
+        charted = len(json.loads((pathlib.Path(self.run_folder) / "topology.json").read_bytes())["nodes"])
         watched.wait_for(has_plan, "plan and robot")
         watched.type(" >")
-        return watched.wait_for(lambda text: self.LAST in text and "END" in text and self.nodes(text) >= 4 and len(set(places(text))) >= 2,
-                                "the last frame, with places of several kinds")
+        return watched.wait_for(lambda text: self.LAST in text and "END" in text and self.nodes(text) == charted and len(set(places(text))) >= 2,
+                                f"the last frame, with {charted} places of several kinds")
 
     def nodes(self, text):
         found = re.search(r"(\d+) nodes, loop open", text)
